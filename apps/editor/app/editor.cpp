@@ -352,6 +352,7 @@ void Editor::properties_panel(Ui& ui, ImVec2 size) {
     panel(ui, "properties", size, theme.colors.panel, ImVec2(theme.px(10), theme.px(8)), [&] {
         const auto* picture = static_cast<const Picture*>(session_->now().picture.get());
         if (picture && tool_panel_.show(ui, *session_, view_, *picture)) ImGui::Separator();
+        settings_.pull_force = view_.settings.pull_force;
         ImGui::PushFont(theme.strong);
         const std::string& selected = session_->selected();
         ImGui::TextUnformatted(selected.empty() ? "Properties"

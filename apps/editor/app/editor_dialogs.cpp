@@ -127,10 +127,6 @@ void Editor::preferences(Ui& ui) {
     if (choice(ui, {.name = "fly", .label = "They act", .what = "When the flight keys move the eye"}, always, when) !=
         Change::none)
         view_.settings.fly_always = settings_.fly_always = always == 1;
-    double force = static_cast<double>(settings_.pull_force);
-    if (number(ui, {.name = "pull_force", .label = "Pull", .what = "Largest force of the hand"}, force,
-               {.min = 0.01, .max = 10000, .unit = "N", .usual = 5}) != Change::none)
-        view_.settings.pull_force = settings_.pull_force = static_cast<float>(force);
     const Published& now = session_->now();
     std::size_t backend = now.backend == "vulkan" ? 1 : 0;
     constexpr std::array<std::string_view, 2> backends{"cpu", "vulkan"};

@@ -64,16 +64,25 @@ void scale_end(const Ui& ui, render::ColorScale scale, float end, std::string_vi
 bool ToolPanel::show(Ui& ui, Session& session, ViewPanel& view, const Picture& picture) {
     const Tool tool = view.settings.tool;
     const bool chooses = tool == Tool::select || tool == Tool::lasso;
-    if (!chooses && tool != Tool::brush && tool != Tool::anchors) return false;
+    if (!chooses && tool != Tool::brush && tool != Tool::anchors && tool != Tool::hand) return false;
     const Ui::Scope scope(ui, "tool");
     heading(ui, tool == Tool::select  ? "Select"
                 : tool == Tool::lasso ? "Lasso"
                 : tool == Tool::brush ? "Brush"
+                : tool == Tool::hand  ? "Hand"
                                       : "Anchors");
     if (chooses) selection(ui, session, view, picture);
+    if (tool == Tool::hand) hand(ui, view);
     if (tool == Tool::brush) brush(ui, session, view);
     if (tool == Tool::anchors) anchors(ui, session, view);
     return true;
+}
+
+void ToolPanel::hand(Ui& ui, ViewPanel& view) {
+    double force = static_cast<double>(view.settings.pull_force);
+    if (number(ui, {.name = "force", .label = "Largest force", .what = "The hand pulls cloth with at most this force"},
+               force, {.min = 0.01, .max = 10000, .unit = "N", .usual = 5}) != Change::none)
+        view.settings.pull_force = static_cast<float>(force);
 }
 
 // --- Selection and groups

@@ -13,6 +13,7 @@ class ToolPanel {
     bool show(Ui& ui, Session& session, ViewPanel& view, const Picture& picture);
 
   private:
+    static void hand(Ui& ui, ViewPanel& view);
     void selection(Ui& ui, Session& session, ViewPanel& view, const Picture& picture);
     void groups(Ui& ui, Session& session, ViewPanel& view);
     void group_buttons(Ui& ui, Session& session, ViewPanel& view, const std::string& cloth);

@@ -401,10 +401,18 @@ void ViewPanel::draw_marks(Ui& ui, const Session& session, const Input& input) {
         std::string label = force.size() > 2 ? force.substr(0, force.size() - 2) + "." + force.substr(force.size() - 2)
                                              : "0." + std::string(2 - force.size(), '0') + force;
         label += " N";
-        if (length(pull.force) > 0.98f * pull.max_force) label += " (largest; see Preferences)";
-        draw.AddText(ImVec2(to->x + theme.px(10), to->y - theme.px(16)), IM_COL32(20, 20, 20, 255), label.c_str());
-        draw.AddText(ImVec2(to->x + theme.px(9), to->y - theme.px(17)), IM_COL32(255, 240, 180, 255), label.c_str());
+        if (length(pull.force) > 0.98f * pull.max_force) label += " (largest)";
+        const ImVec2 text = ImGui::CalcTextSize(label.c_str());
+        const float margin = theme.px(4);
+        const ImVec2 corner(std::clamp(to->x + theme.px(9), origin_.x + margin,
+                                       std::max(origin_.x + margin, origin_.x + size_.x - text.x - margin)),
+                            std::clamp(to->y - theme.px(17), origin_.y + margin,
+                                       std::max(origin_.y + margin, origin_.y + size_.y - text.y - margin)));
+        const ImVec2 pad(theme.px(4), theme.px(1));
+        draw.AddRectFilled(corner - pad, corner + text + pad, IM_COL32(20, 20, 20, 190), theme.px(4));
+        draw.AddText(corner, IM_COL32(255, 240, 180, 255), label.c_str());
         ui.note("pull", ImRect(*from, ImVec2(from->x + 1, from->y + 1)), label);
+        ui.note("pull.label", ImRect(corner, corner + text), label);
     }
     if (gesture_ == Gesture::box && !clicked_) {
         const ImVec2 a(origin_.x + start_.x, origin_.y + start_.y),
@@ -426,7 +434,7 @@ void ViewPanel::draw_touch(Ui& ui, Session& session, const ViewMarks& marks, con
     const ViewCanvas canvas{*ImGui::GetWindowDrawList(), input.view, origin_, ui.theme()};
     const bool chooses = settings.tool == Tool::select || settings.tool == Tool::lasso;
     const bool paints_pins = settings.tool == Tool::brush && brush.kind().name == "pins";
-    if (chooses || paints_pins || settings.tool == Tool::anchors)
+    if (chooses || paints_pins || settings.tool == Tool::anchors || settings.tool == Tool::hand)
         for (std::size_t i = 0; i < picture.world->cloth_count(); ++i)
             if (!marks.hidden.contains(PickTrees::name_of_cloth(picture, i))) draw_pins(canvas, picture, i);
     if (settings.tool != Tool::brush) selector.draw(canvas, picture);
