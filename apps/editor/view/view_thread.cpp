@@ -1,5 +1,6 @@
 #include "editor/view/view_thread.h"
 
+#include "editor/view/enlarge.h"
 #include "editor/view/outline.h"
 #include "editor/view/view_quality.h"
 #include "io/images/pictures_beside.h"
@@ -83,7 +84,10 @@ class Views {
         const auto part = [&](std::uint32_t pixels) { return std::max(1u, pixels * quality.percent / 100); };
         auto image =
             view->picture(*request.scene, *request.world, request.camera, part(request.width), part(request.height));
-        if (image) outline(request, *image);
+        if (!image) return image;
+        if (quality.draft) *image = without_steps(*image);  // it has one sample per pixel
+        if (quality.percent < 100) *image = enlarged(*image, request.width, request.height);
+        outline(request, *image);
         return image;
     }
     const std::vector<std::string>& notes(const Quality& quality) const { return views_[quality.draft]->notes(); }

@@ -41,7 +41,7 @@ struct ViewImage {
     Camera camera;                        ///< with which it was drawn
     std::uint64_t frame = 0;              ///< Frame::index of the world
     double ms = 0;                        ///< that it took to draw
-    unsigned percent = 100;               ///< its size relative to that of the request
+    unsigned percent = 100;               ///< size of the drawn image relative to the request; it was enlarged
     bool draft = false;                   ///< render::RendererOptions::draft
     std::uint64_t number = 0;             ///< of the request, as request() has returned it
     std::vector<std::string> notes = {};  ///< what was worked around (SceneView::notes)

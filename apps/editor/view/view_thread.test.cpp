@@ -223,8 +223,8 @@ TEST_F(ViewThreadTest, lowers_the_quality_until_images_are_in_time) {
     const auto image = thread.image();
     EXPECT_TRUE(image->draft);
     EXPECT_EQ(image->percent, 25u);
-    EXPECT_EQ(image->image.width, 40u);
-    EXPECT_EQ(image->image.height, 22u);
+    EXPECT_EQ(image->image.width, 160u) << "enlarged";
+    EXPECT_EQ(image->image.height, 90u);
 }
 
 TEST_F(ViewThreadTest, tells_that_there_is_no_device_and_tries_again_when_asked) {
