@@ -56,6 +56,48 @@ void add_plane(Coverage& coverage, const Collider& plane, const Camera& camera) 
     coverage.add(corners, triangles);
 }
 
+struct Selection {
+    std::vector<std::string> cloths, colliders;
+    friend bool operator==(const Selection&, const Selection&) = default;
+};
+Selection selection_of(const ViewRequest& request) {
+    return {request.selected_cloths, request.selected_colliders};
+}
+/// Whether the requests are equal except for the selection.
+bool same_scene(const ViewRequest& a, ViewRequest b) {
+    b.selected_cloths = a.selected_cloths;
+    b.selected_colliders = a.selected_colliders;
+    return a == b;
+}
+
+void outline(const ViewRequest& request, const Selection& selection, Image8& image) {
+    if (image.rgba.empty() || selection == Selection{}) return;
+    Coverage coverage(request.camera, image.width, image.height);
+    const Frame& frame = request.world->frame();
+    for (std::size_t i = 0; i < frame.cloths.size(); ++i) {
+        if (!contains(selection.cloths, request.world->model(i)->name)) continue;
+        const RenderMesh& mesh = frame.cloths[i].render_mesh();
+        coverage.add(mesh.positions, mesh.triangles);
+    }
+    for (const Collider& collider : request.world->colliders()) {
+        if (!contains(selection.colliders, collider.name)) continue;
+        TriangleMesh mesh = mesh_of(collider);
+        for (Vec3& p : mesh.positions) p = to_world(collider.pose, p);
+        if (mesh.triangles.empty()) {
+            add_plane(coverage, collider, request.camera);
+        } else {
+            coverage.add(mesh.positions, mesh.triangles);
+        }
+    }
+    coverage.outline(image);
+}
+
+/// An image before its outlines.
+struct Drawn {
+    ViewRequest request;
+    std::shared_ptr<const ViewImage> image;
+};
+
 /// Views of one device, one per kind of quality, made when first used.
 class Views {
   public:
@@ -87,34 +129,11 @@ class Views {
         if (!image) return image;
         if (quality.draft) *image = without_steps(*image);  // it has one sample per pixel
         if (quality.percent < 100) *image = enlarged(*image, request.width, request.height);
-        outline(request, *image);
         return image;
     }
     const std::vector<std::string>& notes(const Quality& quality) const { return views_[quality.draft]->notes(); }
 
   private:
-    void outline(const ViewRequest& request, Image8& image) {
-        if (request.selected_cloths.empty() && request.selected_colliders.empty()) return;
-        Coverage coverage(request.camera, image.width, image.height);
-        const Frame& frame = request.world->frame();
-        for (std::size_t i = 0; i < frame.cloths.size(); ++i) {
-            if (!contains(request.selected_cloths, request.world->model(i)->name)) continue;
-            const RenderMesh& mesh = frame.cloths[i].render_mesh();
-            coverage.add(mesh.positions, mesh.triangles);
-        }
-        for (const Collider& collider : request.world->colliders()) {
-            if (!contains(request.selected_colliders, collider.name)) continue;
-            TriangleMesh mesh = mesh_of(collider);
-            for (Vec3& p : mesh.positions) p = to_world(collider.pose, p);
-            if (mesh.triangles.empty()) {
-                add_plane(coverage, collider, request.camera);
-            } else {
-                coverage.add(mesh.positions, mesh.triangles);
-            }
-        }
-        coverage.outline(image);
-    }
-
     std::shared_ptr<gpu::Device> device_;
     std::uint32_t samples_;
     bool began_ = false;
@@ -140,6 +159,7 @@ struct ViewThread::Impl {
     }
 
     void run();
+    void run_outlines();
     std::shared_ptr<const ViewImage> drawn(const ViewRequest& request, std::uint64_t number, bool best);
     Result<void> draw(const ViewRequest& request, bool best, ViewImage& result);
 
@@ -150,6 +170,8 @@ struct ViewThread::Impl {
     // Under the mutex:
     ViewRequest newest;
     std::uint64_t number = 0, images = 0;  // of the newest request; made so far
+    std::uint64_t scene = 0;               // another one if more than the selection has changed
+    std::shared_ptr<const Drawn> drawn_image;
     std::shared_ptr<const ViewImage> image;
     bool stop = false, failed = false;
 
@@ -157,7 +179,7 @@ struct ViewThread::Impl {
     std::optional<Views> views;
     ViewQuality quality;
 
-    std::thread thread;
+    std::thread thread, outlines;
 };
 
 Result<void> ViewThread::Impl::draw(const ViewRequest& request, bool best, ViewImage& result) {
@@ -199,12 +221,12 @@ std::shared_ptr<const ViewImage> ViewThread::Impl::drawn(const ViewRequest& requ
 
 void ViewThread::Impl::run() {
     lower_priority();
-    std::uint64_t shown = 0;  // the request that was drawn last
+    std::uint64_t shown = 0;  // the scene that was drawn last
     bool is_best = true;      // and whether it was drawn in the best quality
     Clock::time_point changed_at{};
     std::unique_lock lock(mutex);
     while (!stop) {
-        const bool is_new = number != shown;
+        const bool is_new = scene != shown;
         if (failed || (!is_new && is_best)) {
             changed.wait(lock);
             continue;
@@ -215,17 +237,41 @@ void ViewThread::Impl::run() {
             changed.wait_until(lock, changed_at + options.settled);
             continue;
         }
-        shown = number;
+        shown = scene;
         const ViewRequest request = newest;
+        const std::uint64_t of = number;
         if (!request.world || !request.scene || request.width == 0 || request.height == 0) {
             is_best = true;
             continue;
         }
         lock.unlock();
-        auto made = drawn(request, shown, !is_new);
+        auto made = drawn(request, of, !is_new);
         is_best = made->percent == 100 && !made->draft;
         lock.lock();
         failed = !made->errors.empty();
+        drawn_image = std::make_shared<const Drawn>(Drawn{request, std::move(made)});
+        changed.notify_all();
+    }
+}
+
+// A thread of its own: a selection shows at once, also while a large scene is drawn.
+void ViewThread::Impl::run_outlines() {
+    std::shared_ptr<const Drawn> done;
+    Selection selection;
+    std::unique_lock lock(mutex);
+    while (!stop) {
+        if (!drawn_image || (drawn_image == done && selection == selection_of(newest))) {
+            changed.wait(lock);
+            continue;
+        }
+        done = drawn_image;
+        selection = selection_of(newest);
+        const std::uint64_t of = same_scene(newest, done->request) ? number : done->image->number;
+        lock.unlock();
+        auto made = std::make_shared<ViewImage>(*done->image);
+        made->number = of;
+        outline(done->request, selection, made->image);
+        lock.lock();
         image = std::move(made);
         ++images;
         if (!options.on_image || stop) continue;
@@ -237,6 +283,7 @@ void ViewThread::Impl::run() {
 
 ViewThread::ViewThread(ViewThreadOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {
     impl_->thread = std::thread([this] { impl_->run(); });
+    impl_->outlines = std::thread([this] { impl_->run_outlines(); });
 }
 
 ViewThread::~ViewThread() {
@@ -246,11 +293,13 @@ ViewThread::~ViewThread() {
     }
     impl_->changed.notify_all();
     impl_->thread.join();
+    impl_->outlines.join();
 }
 
 std::uint64_t ViewThread::request(ViewRequest request) {
     const std::lock_guard lock(impl_->mutex);
     if (impl_->number > 0 && request == impl_->newest) return impl_->number;
+    if (impl_->number == 0 || !same_scene(impl_->newest, request)) ++impl_->scene;
     std::swap(impl_->newest, request);  // what it replaces is released after the lock
     impl_->changed.notify_all();
     return ++impl_->number;
@@ -264,7 +313,7 @@ std::shared_ptr<const ViewImage> ViewThread::image() const {
 void ViewThread::retry() {
     const std::lock_guard lock(impl_->mutex);
     if (!std::exchange(impl_->failed, false)) return;
-    ++impl_->number;  // draws the request again
+    ++impl_->number, ++impl_->scene;  // draws the request again
     impl_->changed.notify_all();
 }
 

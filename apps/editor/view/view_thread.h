@@ -51,8 +51,8 @@ struct ViewImage {
 struct ViewThreadOptions {
     /// Called on the thread, at first and by retry(). Empty: the best device of the machine.
     std::function<Result<std::shared_ptr<gpu::Device>>()> open_device = {};
-    /// Called on the thread after each new image. It may wake another thread; it must not wait for one that uses the
-    /// ViewThread.
+    /// Called on a thread of the ViewThread after each new image. It may wake another thread; it must not wait for one
+    /// that uses the ViewThread.
     std::function<void()> on_image = {};
     std::uint32_t samples = 4;               ///< per pixel, of images that do not move
     double target_ms = 50;                   ///< for an image while something moves
@@ -60,8 +60,9 @@ struct ViewThreadOptions {
 };
 
 /// While requests change, images are as large and as good as the target time allows (ViewQuality). Once nothing has
-/// changed for a while, one image of the best quality follows, and then none. All functions may be called by any thread
-/// and return at once.
+/// changed for a while, one image of the best quality follows, and then none. A second thread draws the outlines, so
+/// that a selection shows while a large scene is drawn; it alone does not draw the scene again. All functions may be
+/// called by any thread and return at once.
 class ViewThread {
   public:
     explicit ViewThread(ViewThreadOptions options = {});

@@ -209,6 +209,28 @@ TEST_F(ViewThreadTest, draws_only_the_newest_request) {
     EXPECT_LE(thread.count(), count + 2);
 }
 
+// Labels: no-asan
+TEST_F(ViewThreadTest, replaces_outlines_without_drawing_the_scene_again) {
+    ViewThread thread(options());
+    thread.request(base);
+    const auto plain = wait_for(thread, is_best);
+    ASSERT_TRUE(plain);
+    const std::uint64_t count = thread.count();
+    ViewRequest next = base;
+    next.selected_cloths = {"sheet"};
+    const std::uint64_t number = thread.request(next);
+    const auto outlined = wait_for(thread, [&](const ViewImage& one) { return one.number == number; });
+    ASSERT_TRUE(outlined);
+    EXPECT_TRUE(is_best(*outlined)) << "the first image after the selection";
+    EXPECT_NE(outlined->image.rgba, plain->image.rgba);
+    const std::uint64_t last = thread.request(base);
+    const auto again = wait_for(thread, [&](const ViewImage& one) { return one.number == last; });
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->image.rgba, plain->image.rgba);
+    std::this_thread::sleep_for(300ms);
+    EXPECT_EQ(thread.count(), count + 2);
+}
+
 TEST_F(ViewThreadTest, lowers_the_quality_until_images_are_in_time) {
     ViewThreadOptions hurried = options();
     hurried.target_ms = 0.001;  // nothing is that fast
