@@ -55,7 +55,7 @@ void Editor::recovery_dialog(Ui& ui) {
     Dialog dialog(ui, "recovery",
                   abandoned_.size() > 1 ? "Sessions have ended unexpectedly" : "A session has ended unexpectedly",
                   ImVec2(theme.px(620), 0));
-    ImGui::TextUnformatted("Their actions can be played again, except the last one if it was not written.");
+    ImGui::TextUnformatted("What was done can be played again, except the last action if it was not written.");
     std::filesystem::path chosen, unwanted;
     for (std::size_t i = 0; i < abandoned_.size(); ++i) {
         const LogSummary& log = abandoned_[i];
