@@ -31,7 +31,7 @@ class Glsl : public testing::Test {
                                  "layout(std430, binding = 0) buffer Particles { vec4 x[]; };\n"
                                  "layout(std430, binding = 1) buffer Numbers { float n[]; };\n"
                               << before_main << "\nvoid main() {\n    uint i = gl_GlobalInvocationID.x;\n"
-                              << "    Step h = Step(n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7]);\n"
+                              << "    Step h = Step(n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8] > 0.0);\n"
                               << main_body << "}\n";
         const std::string command = std::string(GLSLC) + " --target-env=vulkan1.2 -Werror -O -I" + WEFT_SOURCE_DIR +
                                     "/src " + shader.string() + " -o " + (folder_ / "kernel.spv").string() + " >" +

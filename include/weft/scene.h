@@ -30,6 +30,11 @@ enum class Projection { automatic, lines, gauss_seidel, jacobi };
 /// of 1/65536 m in any order.
 enum class Accumulate { gather, fixed_point };
 
+/// Whether projections keep what rounding drops from the displacements of particles, and add it to the next substep. In
+/// short substeps that is much of the displacements: cloth sags too far, and loses momentum. `automatic`: in substeps
+/// shorter than 1/2400 s.
+enum class Compensation { automatic, on, off };
+
 /// All options of the solver. Scene files, Options::solver and the command line use the keys that
 /// solver_keys lists (src/scene/scene_keys.h).
 struct SolverDesc {
@@ -38,7 +43,8 @@ struct SolverDesc {
     Method method = Method::xpbd;
     Projection projection = Projection::automatic;
     Accumulate accumulate = Accumulate::gather;
-    bool hierarchy = true;  ///< solve coarse levels first: large cloths stretch less
+    bool hierarchy = true;                                ///< solve coarse levels first: large cloths stretch less
+    Compensation compensation = Compensation::automatic;  ///< not `on` with `pbd`
     friend bool operator==(const SolverDesc&, const SolverDesc&) = default;
 };
 

@@ -36,6 +36,7 @@ ClothRun::ClothRun(const Passes& passes, ClothState& cloth, Bodies& bodies, cons
       numbers_(frame_numbers(*cloth.model, *step.plan, step.input.dt)) {
     if (!cloth.steady_parts.empty())
         view_.steady_parts = cloth.steady_parts.data(), view_.steadied = cloth.steadied.data();
+    if (!cloth.remainder.empty()) view_.remainder = &cloth.remainder[0].x;
 }
 
 Range ClothRun::particles(Worker worker) const {
@@ -89,7 +90,7 @@ bool ClothRun::run(const IslandPass& island_pass, std::uint32_t substep, Worker 
 // Makes particles near pins heavier until `release`. Most packets of particles have none.
 void ClothRun::steady(Range mine) const {
     const float h = numbers_.h;
-    const scalar::Step step{h, 1 / h, 1 / h / h, 0, 1, 0, 0, 0};
+    const scalar::Step step{h, 1 / h, 1 / h / h, 0, 1, 0, 0, 0, false};
     const std::span<const float> weights = cloth_.weights();
     for (std::uint32_t begin = mine.begin; begin < mine.end; begin += lane_padding) {
         const std::span steadiness(model().steadiness.data() + begin, lane_padding);
@@ -150,7 +151,7 @@ bool ClothRun::run_particles(const Pass& pass, std::uint32_t substep, Worker wor
             run_contacts(pass, substep, mine, worker);
             break;
         case PassKind::prolongation:
-            passes_.prolongation(view_.position, cloth_.prolongation_to_particles(),
+            passes_.prolongation(view_, cloth_.prolongation_to_particles(),
                                  without_anchors(padded(model().particle_count)));
             break;
         case PassKind::average:

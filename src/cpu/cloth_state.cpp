@@ -209,6 +209,7 @@ void ClothState::roll_back() {
         world.compensation[p] = world.good_compensation[p];
     }
     std::ranges::copy(good_kept, kept().begin());
+    std::ranges::fill(remainder, Vec4{});
 }
 
 RowView ClothState::rows(ConstraintKind kind) {
@@ -276,13 +277,17 @@ void ClothState::clear_taken(Range particles) {
 LevelView ClothState::level(std::uint32_t i) {
     LevelState& state = levels[i];
     const Restriction& from = model->hierarchy[i].restriction;
-    return {&state.position[0].x, &state.origin[0].x, &state.displacement[0].x,
-            from.begin.data(),    from.node.data(),   from.weight.data()};
+    return {&state.position[0].x,     &state.origin[0].x,
+            &state.displacement[0].x, state.remainder.empty() ? nullptr : &state.remainder[0].x,
+            from.begin.data(),        from.node.data(),
+            from.weight.data()};
 }
 
 // The loops over constraints treat the nodes of a level as particles.
 ParticleView ClothState::level_particles(std::uint32_t i) {
-    return {&levels[i].position[0].x, nullptr, nullptr, nullptr};
+    ParticleView view{&levels[i].position[0].x, nullptr, nullptr, nullptr};
+    if (!levels[i].remainder.empty()) view.remainder = &levels[i].remainder[0].x;
+    return view;
 }
 
 RowView ClothState::level_rows(std::uint32_t i) {
@@ -371,6 +376,9 @@ void ClothState::prepare(const WorldPlan& plan, std::size_t colliders, unsigned 
             for (std::uint32_t node = 0; node < coarse.count; ++node) state.position[node].w = coarse.weight[node];
         }
     }
+    for (std::size_t i = 0; i < levels.size(); ++i)
+        levels[i].remainder.resize(plan.compensated ? model->hierarchy[i].capacity() : 0);
+    remainder.resize(plan.compensated ? model->capacity() : 0);
     for (const ConstraintTable& table : model->constraints) {
         auto& of_table = lambda[static_cast<std::uint32_t>(table.kind)];
         const std::size_t count = stores_lambda(plan, table, *model) ? table.lambda_count() : 0;

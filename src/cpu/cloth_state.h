@@ -24,7 +24,7 @@ namespace weft::cpu {
 
 /// Working memory of one coarse level. Its content is valid within a substep only.
 struct LevelState {
-    AlignedVector<Vec4> position, origin, displacement;
+    AlignedVector<Vec4> position, origin, displacement, remainder;
     AlignedVector<float> lambda;
 };
 
@@ -61,6 +61,7 @@ struct ClothState {
     std::vector<float> good_kept;        ///< at the start of the frame; empty if no frame reads those before
     AlignedVector<float> steady_parts;   ///< ParticleView, in this frame; empty if no particle is heavier near its pin
     std::vector<std::uint8_t> steadied;  ///< likewise
+    AlignedVector<Vec4> remainder;       ///< ParticleView, zero between substeps; empty if the plan does not keep it
     AlignedVector<Vec4> taut;            ///< TautSum, zero between passes; empty if no plan uses it
     std::vector<AlignedVector<float>> line_scratch;  ///< per worker
     double substep_seconds = 0;                      ///< of the last frame, scales lambda; 0 before the first frame

@@ -1,5 +1,10 @@
 // Solves lines of stretch constraints, one line per lane. Included by passes.inl.
 
+struct LinePoint {
+    vec3 place, remainder;  // the remainder only where it is kept
+    real w;
+};
+
 // Values that elimination stores for back substitution, constraint by constraint, as vectors of lane_count floats.
 struct LineScratch {
     float* at;
@@ -18,32 +23,78 @@ struct LineScratch {
         r.g = load(entry(row, 3)), r.factor = load(entry(row, 4)), r.limit = load(entry(row, 5));
         return r;
     }
-    WEFT_FN void keep_point(std::size_t row, vec3 x, real w) const {
-        store(x.x, entry(row, 6)), store(x.y, entry(row, 7)), store(x.z, entry(row, 8)), store(w, entry(row, 9));
+    template <bool exact>
+    WEFT_FN void keep_point(std::size_t row, const LinePoint& p) const {
+        store(p.place.x, entry(row, 6)), store(p.place.y, entry(row, 7)), store(p.place.z, entry(row, 8));
+        store(p.w, entry(row, 9));
+        if (!exact) return;
+        store(p.remainder.x, entry(row, 10)), store(p.remainder.y, entry(row, 11));
+        store(p.remainder.z, entry(row, 12));
     }
-    WEFT_FN vec3 point(std::size_t row, real& w) const {
-        w = load(entry(row, 9));
-        return vec3(load(entry(row, 6)), load(entry(row, 7)), load(entry(row, 8)));
+    template <bool exact>
+    WEFT_FN LinePoint point(std::size_t row) const {
+        LinePoint p;
+        p.place = vec3(load(entry(row, 6)), load(entry(row, 7)), load(entry(row, 8)));
+        p.w = load(entry(row, 9));
+        if (exact) p.remainder = vec3(load(entry(row, 10)), load(entry(row, 11)), load(entry(row, 12)));
+        return p;
     }
 };
 
+template <bool exact>
+WEFT_FN LinePoint gather_point(const ParticleView& p, const std::uint32_t* index) {
+    LinePoint point;
+    point.place = gather_blocks(p.position, index, point.w);
+    real unused;
+    if (exact) point.remainder = gather_blocks(p.remainder, index, unused);
+    return point;
+}
+
+template <bool exact>
+WEFT_FN void move_point(const ParticleView& p, const std::uint32_t* index, LinePoint point, vec3 by) {
+    if (exact) {
+        move_exactly(point.place, point.remainder, by);
+        scatter_blocks(point.remainder, real(0.0f), p.remainder, index);
+    } else {
+        point.place = point.place + by;
+    }
+    scatter_blocks(point.place, point.w, p.position, index);
+}
+
+// The constraint at row r, between a and b.
+template <LambdaUse use, bool exact>
+WEFT_FN LineRow eliminate(LineRow& before, const LinePoint& a, const LinePoint& b, const RowView& rows, std::size_t r,
+                          const Step& step) {
+    const real lambda = use == LambdaUse::accumulate ? load(rows.lambda + r) : real(0.0f);
+    const StretchRow row = StretchTraits::load_row(rows.fields + r, rows.stride);
+    if (!exact) return eliminate_stretch(before, a.place, b.place, a.w, b.w, lambda, row, step);
+    const vec3 from_a = (b.place - a.place) + (b.remainder - a.remainder);
+    return eliminate_stretch(before, vec3(real(0.0f)), from_a, a.w, b.w, lambda, row, step);
+}
+
+// The change of a constraint's multiplier.
 template <LambdaUse use>
+WEFT_FN real substitute(const LineRow& row, real next, const RowView& rows, std::size_t r) {
+    next = substitute_stretch(row, next);
+    if (use == LambdaUse::store) store(next, rows.lambda + r);
+    if (use == LambdaUse::accumulate) store(load(rows.lambda + r) + next, rows.lambda + r);
+    return next;
+}
+
+template <LambdaUse use, bool exact>
 inline void lines_of_block(const ParticleView& p, const RowView& rows, std::size_t begin, std::size_t length,
                            const Step& step, const LineScratch& scratch) {
     const std::uint32_t* second = rows.particles + rows.stride;
-    real wa, wb;
-    vec3 a = gather_blocks(p.position, rows.particles + begin, wa);
+    LinePoint a = gather_point<exact>(p, rows.particles + begin);
     LineRow before = line_start();
     for (std::size_t k = 0; k < length; ++k) {
         const std::size_t r = begin + k * lane_padding;
-        const vec3 b = gather_blocks(p.position, second + r, wb);
-        const real lambda = use == LambdaUse::accumulate ? load(rows.lambda + r) : real(0.0f);
-        const LineRow now = eliminate_stretch(before, a, b, wa, wb, lambda,
-                                              StretchTraits::load_row(rows.fields + r, rows.stride), step);
+        const LinePoint b = gather_point<exact>(p, second + r);
+        const LineRow now = eliminate<use, exact>(before, a, b, rows, r, step);
         if (k > 0) scratch.keep_factor(k - 1, before.factor);
         scratch.keep_row(k, now);
-        scratch.keep_point(k, a, wa);
-        before = now, a = b, wa = wb;
+        scratch.keep_point<exact>(k, a);
+        before = now, a = b;
     }
     scratch.keep_factor(length - 1, real(0.0f));
 
@@ -52,15 +103,13 @@ inline void lines_of_block(const ParticleView& p, const RowView& rows, std::size
     for (std::size_t k = length; k-- > 0;) {
         const std::size_t r = begin + k * lane_padding;
         const LineRow row = scratch.row(k);
-        next = substitute_stretch(row, next);
-        if (use == LambdaUse::store) store(next, rows.lambda + r);
-        if (use == LambdaUse::accumulate) store(load(rows.lambda + r) + next, rows.lambda + r);
+        next = substitute<use>(row, next, rows, r);
         const vec3 mine = row.n * next;
-        scatter_blocks(a + (pull - mine) * wa, wa, p.position, second + r);
+        move_point<exact>(p, second + r, a, (pull - mine) * a.w);
         pull = mine;
-        a = scratch.point(k, wa);
+        a = scratch.point<exact>(k);
     }
-    scatter_blocks(a + pull * wa, wa, p.position, rows.particles + begin);
+    move_point<exact>(p, rows.particles + begin, a, pull * a.w);
 }
 
 // Whether all lines go on from the constraint before row `r` to that at row `r`.
@@ -72,27 +121,24 @@ WEFT_FN bool all_go_on(const std::uint32_t* first, const std::uint32_t* second, 
 // The same for a block in which lines end: a constraint may begin at another particle than that at which the one before
 // it ends. Few do, so where all lines go on, particles are read and written once, as above. Gives the bits of
 // lines_of_block() where the particles are the same.
-template <LambdaUse use>
+template <LambdaUse use, bool exact>
 inline void lines_of_cut_block(const ParticleView& p, const RowView& rows, std::size_t begin, std::size_t length,
                                const Step& step, const LineScratch& scratch) {
     const std::uint32_t *first = rows.particles, *second = rows.particles + rows.stride;
     LineRow before = line_start();
-    real wa, wb;
-    vec3 a = gather_blocks(p.position, first + begin, wa);
+    LinePoint a = gather_point<exact>(p, first + begin);
     for (std::size_t k = 0; k < length; ++k) {
         const std::size_t r = begin + k * lane_padding;
         if (k > 0 && !all_go_on(first, second, r)) {
-            a = gather_blocks(p.position, first + r, wa);
+            a = gather_point<exact>(p, first + r);
             before.n = select(same_index(first + r, second + r - lane_padding), before.n, vec3(real(0.0f)));
         }
-        const vec3 b = gather_blocks(p.position, second + r, wb);
-        const real lambda = use == LambdaUse::accumulate ? load(rows.lambda + r) : real(0.0f);
-        const LineRow now = eliminate_stretch(before, a, b, wa, wb, lambda,
-                                              StretchTraits::load_row(rows.fields + r, rows.stride), step);
+        const LinePoint b = gather_point<exact>(p, second + r);
+        const LineRow now = eliminate<use, exact>(before, a, b, rows, r, step);
         if (k > 0) scratch.keep_factor(k - 1, before.factor);
         scratch.keep_row(k, now);
-        scratch.keep_point(k, a, wa);
-        before = now, a = b, wa = wb;
+        scratch.keep_point<exact>(k, a);
+        before = now, a = b;
     }
     scratch.keep_factor(length - 1, real(0.0f));
 
@@ -101,38 +147,42 @@ inline void lines_of_cut_block(const ParticleView& p, const RowView& rows, std::
     for (std::size_t k = length; k-- > 0;) {
         const std::size_t r = begin + k * lane_padding, after = r + lane_padding;
         const LineRow row = scratch.row(k);
-        next = substitute_stretch(row, next);
-        if (use == LambdaUse::store) store(next, rows.lambda + r);
-        if (use == LambdaUse::accumulate) store(load(rows.lambda + r) + next, rows.lambda + r);
+        next = substitute<use>(row, next, rows, r);
         const vec3 mine = row.n * next;
         if (k + 1 == length || all_go_on(first, second, after)) {
-            scatter_blocks(a + (pull - mine) * wa, wa, p.position, second + r);
+            move_point<exact>(p, second + r, a, (pull - mine) * a.w);
         } else {
-            real w;
-            const vec3 end = gather_blocks(p.position, second + r, w);  // no constraint has moved it yet
-            scatter_blocks(a + pull * wa, wa, p.position, first + after);
+            const LinePoint end = gather_point<exact>(p, second + r);  // no constraint has moved it yet
+            move_point<exact>(p, first + after, a, pull * a.w);
             const mask goes_on = same_index(first + after, second + r);
-            scatter_blocks(end + (select(goes_on, pull, vec3(real(0.0f))) - mine) * w, w, p.position, second + r);
+            move_point<exact>(p, second + r, end, (select(goes_on, pull, vec3(real(0.0f))) - mine) * end.w);
         }
         pull = mine;
-        a = scratch.point(k, wa);
+        a = scratch.point<exact>(k);
     }
-    scatter_blocks(a + pull * wa, wa, p.position, first + begin);
+    move_point<exact>(p, first + begin, a, pull * a.w);
 }
 
-template <LambdaUse use>
+template <LambdaUse use, bool exact>
 inline void lines_of(const ParticleView& p, const RowView& rows, std::span<const LineBlock> blocks, float h,
                      float* scratch) {
     const Step step = make_step(h);
     for (const LineBlock& block : blocks) {
         for (std::size_t lane = 0; lane < lane_padding; lane += lane_count) {
             if (block.cut) {
-                lines_of_cut_block<use>(p, rows, block.begin + lane, block.length, step, {scratch});
+                lines_of_cut_block<use, exact>(p, rows, block.begin + lane, block.length, step, {scratch});
             } else {
-                lines_of_block<use>(p, rows, block.begin + lane, block.length, step, {scratch});
+                lines_of_block<use, exact>(p, rows, block.begin + lane, block.length, step, {scratch});
             }
         }
     }
+}
+
+template <LambdaUse use>
+inline void lines_of(const ParticleView& p, const RowView& rows, std::span<const LineBlock> blocks, float h,
+                     float* scratch) {
+    return p.remainder ? lines_of<use, true>(p, rows, blocks, h, scratch)
+                       : lines_of<use, false>(p, rows, blocks, h, scratch);
 }
 
 inline void lines_pass(const ParticleView& p, const RowView& rows, std::span<const LineBlock> blocks, float h,

@@ -33,6 +33,9 @@ struct ParticleView {
     float* compensation;                     ///< rounding error of the position (compensated summation)
     const float* steady_parts = nullptr;     ///< per particle, of the acceleration by gravity; null: all of it
     const std::uint8_t* steadied = nullptr;  ///< per lane_padding particles: whether it is not 1 for all of them
+    /// What rounding has dropped from corrections of the position in this substep, m; zero at its start. Null: not
+    /// kept.
+    float* remainder = nullptr;
 };
 
 /// How far one-sided limits give way in a frame; see Step.
@@ -162,6 +165,7 @@ struct LevelView {
     float* position;                     ///< w: inverse mass
     float* origin;                       ///< weighted mean of the finer positions it represents
     float* displacement;                 ///< correction by this level and the coarser ones
+    float* remainder;                    ///< as in ParticleView
     const std::uint32_t *begin, *finer;  ///< as Restriction has them: begin and node
     const float* weight;                 ///< likewise
 };
@@ -250,7 +254,7 @@ struct Passes {
     void (*restriction)(const float* finer, const LevelView&, Range);
     void (*interpolation)(const LevelView&, const ProlongationView&, Range);
     void (*node_correction)(const LevelView&, Range);
-    void (*prolongation)(float* particle_position, const ProlongationView&, Range);
+    void (*prolongation)(const ParticleView&, const ProlongationView&, Range);
     /// `viscous`: retardation time times time step, s².
     std::array<void (*)(const ParticleView&, const RowView&, Range, float viscous), constraint_kind_count> damp;
     /// Adds the masses of taut edges to the sums of their ends: blocks of TautSum, by particle.
@@ -301,7 +305,7 @@ struct Passes {
 };
 
 /// Size of the values that elimination stores for back substitution, per constraint and per block.
-inline constexpr std::size_t line_scratch_fields = 10;
+inline constexpr std::size_t line_scratch_fields = 13;
 constexpr std::size_t line_scratch_floats(std::uint32_t block_length) {
     return line_scratch_fields * lane_padding * block_length;
 }

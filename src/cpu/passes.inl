@@ -2,7 +2,7 @@
 
 WEFT_FN Step make_step(float h, const Limits& limits = {}) {
     return {real(h), real(1.0f / h), real(1.0f / h / h), real(limits.tension), real(limits.allowed), real(0.0f), real(0.0f),
-            real(0.0f)};
+            real(0.0f), false};
 }
 
 WEFT_FN Motion load_motion(const ParticleView& p, std::size_t at, vec3& start) {
@@ -49,6 +49,16 @@ inline bool predict_pass(const ParticleView& p, Range range, Vec3 gravity, float
     return any(capped);
 }
 
+// The end of a substep. Leaves the remainders at zero.
+WEFT_FN mask end_motion(const ParticleView& p, std::size_t i, Motion& m, vec3 x, vec3 start, real w, real max_speed,
+                        const Step& step) {
+    if (!p.remainder) return update_velocity(m, x, start, w, max_speed, step);
+    real unused;
+    const vec3 remainder = load_blocks_unordered(p.remainder + 4 * i, unused);
+    store_blocks_unordered(vec3(real(0.0f)), real(0.0f), p.remainder + 4 * i);
+    return update_velocity_exactly(m, x, remainder, start, w, max_speed, step);
+}
+
 inline bool velocities_pass(const ParticleView& p, Range range, float max_speed, float h) {
     const Step step = make_step(h);
     mask capped = real(0.0f) > real(0.0f);
@@ -57,8 +67,9 @@ inline bool velocities_pass(const ParticleView& p, Range range, float max_speed,
         vec3 start;
         const vec3 x = load_blocks_unordered(p.position + 4 * i, w);
         Motion m = load_motion(p, 4 * i, start);
-        const mask now = update_velocity(m, x, start, w, real(max_speed), step);
+        const mask now = end_motion(p, i, m, x, start, w, real(max_speed), step);
         capped = capped || now;
+        if (p.remainder) store_blocks_unordered(start, m.v_dropped.x, p.start + 4 * i);
         store_motion(m, p, 4 * i);
     }
     return any(capped);
@@ -72,7 +83,7 @@ inline bool advance_pass(const ParticleView& p, Range range, Vec3 gravity, float
         real w;
         vec3 start, x = load_blocks_unordered(p.position + 4 * i, w);
         Motion m = load_motion(p, 4 * i, start);
-        const mask ended = update_velocity(m, x, start, w, real(max_speed), step);
+        const mask ended = end_motion(p, i, m, x, start, w, real(max_speed), step);
         start = x;
         const mask begun = predict(x, m, w, felt_at(p, i, acceleration), real(max_speed), step);
         capped = capped || ended || begun;
@@ -139,6 +150,38 @@ WEFT_FN void store_points(const ParticleView& p, const RowView& rows, std::size_
     }
 }
 
+// Particles of lane_count constraints, relative to the first one: numbers as small as the constraint, which round less.
+template <class Traits>
+struct NearPoints {
+    vec3 place[Traits::arity], remainder[Traits::arity];
+    Points<Traits> points;
+};
+
+WEFT_FN const std::uint32_t* particles_of(const RowView& rows, int k, std::size_t r) {
+    return rows.particles + static_cast<std::size_t>(k) * rows.stride + r;
+}
+
+template <class Traits>
+WEFT_FN void load_near_points(const ParticleView& p, const RowView& rows, std::size_t r, NearPoints<Traits>& near) {
+    load_points<Traits>(p, rows, r, near.place, near.points.w);
+    WEFT_UNROLL
+    for (int k = 0; k < Traits::arity; ++k) {
+        real unused;
+        near.remainder[k] = gather_blocks(p.remainder, particles_of(rows, k, r), unused);
+        near.points.x[k] = (near.place[k] - near.place[0]) + (near.remainder[k] - near.remainder[0]);
+    }
+}
+
+template <class Traits>
+WEFT_FN void store_near_points(const ParticleView& p, const RowView& rows, std::size_t r, NearPoints<Traits>& near) {
+    WEFT_UNROLL
+    for (int k = 0; k < Traits::moves; ++k) {
+        move_exactly(near.place[k], near.remainder[k], near.points.x[k]);
+        scatter_blocks(near.place[k], near.points.w[k], p.position, particles_of(rows, k, r));
+        scatter_blocks(near.remainder[k], real(0.0f), p.remainder, particles_of(rows, k, r));
+    }
+}
+
 WEFT_FN Step shifted(Step step, const RowView& rows, std::size_t r) {
     if (rows.shifts) {
         step.shift_c = load(rows.shifts + r);
@@ -183,8 +226,27 @@ inline void project_rows(const ParticleView& p, const RowView& rows, Range range
     }
 }
 
+template <class Traits, LambdaUse use>
+inline void project_rows_exactly(const ParticleView& p, const RowView& rows, Range range, float h) {
+    Step step = make_step(h, rows.limits);
+    step.apart = true;
+    for (std::size_t r = range.begin; r < range.end; r += lane_count) {
+        NearPoints<Traits> near;
+        load_near_points<Traits>(p, rows, r, near);
+        project_points<Traits, use>(rows, r, step, near.points);
+        store_near_points<Traits>(p, rows, r, near);
+    }
+}
+
 template <class Traits>
 inline void project_pass(const ParticleView& p, const RowView& rows, Range range, float h, LambdaUse use) {
+    if (p.remainder) {
+        switch (use) {
+            case LambdaUse::discard: return project_rows_exactly<Traits, LambdaUse::discard>(p, rows, range, h);
+            case LambdaUse::store: return project_rows_exactly<Traits, LambdaUse::store>(p, rows, range, h);
+            case LambdaUse::accumulate: return project_rows_exactly<Traits, LambdaUse::accumulate>(p, rows, range, h);
+        }
+    }
     switch (use) {
         case LambdaUse::discard: return project_rows<Traits, LambdaUse::discard>(p, rows, range, h);
         case LambdaUse::store: return project_rows<Traits, LambdaUse::store>(p, rows, range, h);
@@ -197,7 +259,7 @@ inline void project_pass(const ParticleView& p, const RowView& rows, Range range
 // A step that makes every constraint rigid: 1/h² is 0, which removes all compliance.
 WEFT_FN Step rigid_step(const Limits& limits) {
     return {real(1e3f),           real(1e-3f), real(0.0f), real(limits.tension),
-            real(limits.allowed), real(0.0f),  real(0.0f), real(0.0f)};
+            real(limits.allowed), real(0.0f),  real(0.0f), real(0.0f), false};
 }
 
 // Without compliance λ has the opposite sign of C: λ < 0 selects the stiffness for C > 0.
@@ -223,14 +285,21 @@ inline void project_plain_pass(const ParticleView& p, const RowView& rows, Range
     }
 }
 
-template <class Traits>
-inline void correct_pass(const ParticleView& p, const RowView& rows, const CorrectionView& out, Range range, float h,
+template <class Traits, bool exact>
+inline void correct_rows(const ParticleView& p, const RowView& rows, const CorrectionView& out, Range range, float h,
                          LambdaUse use) {
-    const Step step = out.share ? make_step(h, rows.limits) : rigid_step(rows.limits);
+    Step step = out.share ? make_step(h, rows.limits) : rigid_step(rows.limits);
+    step.apart = exact;
     for (std::size_t r = range.begin; r < range.end; r += lane_count) {
         vec3 x[Traits::arity], before[Traits::arity];
         real w[Traits::arity];
-        load_points<Traits>(p, rows, r, x, w);
+        if (exact) {
+            NearPoints<Traits> near;
+            load_near_points<Traits>(p, rows, r, near);
+            for (int k = 0; k < Traits::arity; ++k) x[k] = near.points.x[k], w[k] = near.points.w[k];
+        } else {
+            load_points<Traits>(p, rows, r, x, w);
+        }
         for (int k = 0; k < Traits::moves; ++k) before[k] = x[k];
         real lambda[Traits::multipliers], lambda_before[Traits::multipliers];
         for (int k = 0; k < Traits::multipliers; ++k) {
@@ -247,10 +316,17 @@ inline void correct_pass(const ParticleView& p, const RowView& rows, const Corre
                   rows.lambda + static_cast<std::size_t>(k) * rows.stride + r);
         }
         for (int k = 0; k < Traits::moves; ++k) {
-            store_blocks((x[k] - before[k]) * part, real(0.0f),
+            store_blocks((exact ? x[k] : x[k] - before[k]) * part, real(0.0f),
                          out.blocks + 4 * (static_cast<std::size_t>(k) * rows.stride + r));
         }
     }
+}
+
+template <class Traits>
+inline void correct_pass(const ParticleView& p, const RowView& rows, const CorrectionView& out, Range range, float h,
+                         LambdaUse use) {
+    if (p.remainder) return correct_rows<Traits, true>(p, rows, out, range, h, use);
+    correct_rows<Traits, false>(p, rows, out, range, h, use);
 }
 
 template <class Node>
@@ -285,7 +361,13 @@ inline void interpolation_pass(const LevelView& level, const ProlongationView& p
         real unused, w;
         const vec3 x = load_blocks(level.origin + 4 * i, unused);
         load_blocks(level.position + 4 * i, w);
-        store_blocks(prolongation.displacement ? x + interpolated(prolongation, i) : x, w, level.position + 4 * i);
+        const vec3 by = prolongation.displacement ? interpolated(prolongation, i) : vec3(real(0.0f));
+        if (level.remainder) {
+            vec3 moved = x, remainder(real(0.0f));
+            move_exactly(moved, remainder, by);
+            store_blocks(remainder, real(0.0f), level.remainder + 4 * i);
+        }
+        store_blocks(prolongation.displacement ? x + by : x, w, level.position + 4 * i);
     }
 }
 
@@ -294,17 +376,28 @@ inline void node_correction_pass(const LevelView& level, Range range) {
         real unused;
         const vec3 now = load_blocks_unordered(level.position + 4 * i, unused);
         const vec3 before = load_blocks_unordered(level.origin + 4 * i, unused);
-        store_blocks_unordered(now - before, real(0.0f), level.displacement + 4 * i);
+        vec3 moved = now - before;
+        if (level.remainder) moved = moved + load_blocks_unordered(level.remainder + 4 * i, unused);
+        store_blocks_unordered(moved, real(0.0f), level.displacement + 4 * i);
     }
 }
 
-inline void prolongation_pass(float* particle_position, const ProlongationView& prolongation, Range range) {
+inline void prolongation_pass(const ParticleView& p, const ProlongationView& prolongation, Range range) {
     for (std::size_t i = range.begin; i < range.end; i += lane_count) {
         real w;
-        const vec3 x = load_blocks(particle_position + 4 * i, w);
+        vec3 x = load_blocks(p.position + 4 * i, w);
         // The hierarchy may be older than a pin, so pinned particles can still have weights.
         const real moves = select(w > real(0.0f), real(1.0f), real(0.0f));
-        store_blocks(x + interpolated(prolongation, i) * moves, w, particle_position + 4 * i);
+        const vec3 by = interpolated(prolongation, i) * moves;
+        if (p.remainder) {
+            real unused;
+            vec3 remainder = load_blocks(p.remainder + 4 * i, unused);
+            move_exactly(x, remainder, by);
+            store_blocks(remainder, real(0.0f), p.remainder + 4 * i);
+        } else {
+            x = x + by;
+        }
+        store_blocks(x, w, p.position + 4 * i);
     }
 }
 

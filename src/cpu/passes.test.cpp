@@ -402,7 +402,7 @@ TEST_P(InstructionSet, carries_nodes_to_particles_alike_whatever_their_numbers_t
         long_numbers{&displacement[0].x, stride, nullptr, wide.data(), weight.data()};
     const auto spread = [&](const Passes& passes, const ProlongationView& prolongation) {
         Fixture f = state;
-        passes.prolongation(f.view().position, prolongation, {0, stride});
+        passes.prolongation(f.view(), prolongation, {0, stride});
         return f.position;
     };
     const auto one_by_one = spread(scalar_passes(), long_numbers);

@@ -78,8 +78,17 @@ void average_pass(const ParticleView& p, const GatherView& gather, Range range) 
             sum = sum + vec3(c[0], c[1], c[2]);
         }
         if (gather.mean) sum = sum * (1.0f / static_cast<float>(end - begin));
-        float* x = p.position + 4 * i;
-        store_blocks(vec3(x[0], x[1], x[2]) + sum, x[3], x);
+        float* const at = p.position + 4 * i;
+        vec3 x(at[0], at[1], at[2]);
+        if (p.remainder) {
+            float* const kept = p.remainder + 4 * i;
+            vec3 remainder(kept[0], kept[1], kept[2]);
+            move_exactly(x, remainder, sum);
+            store_blocks(remainder, 0.0f, kept);
+        } else {
+            x = x + sum;
+        }
+        store_blocks(x, at[3], at);
     }
 }
 

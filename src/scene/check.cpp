@@ -270,6 +270,8 @@ void check_solver(const SolverDesc& solver, const std::string& pointer, Problems
     check_values(solver_keys, &solver, pointer, problems);
     if (solver.method == Method::pbd && solver.projection == Projection::lines)
         problems.add(at(pointer, "projection"), "must not be \"lines\" with method \"pbd\", which has no such form");
+    if (solver.method == Method::pbd && solver.compensation == Compensation::on)
+        problems.add(at(pointer, "compensation"), "must not be \"on\" with method \"pbd\", which has none");
 }
 
 void check_air(const AirDesc& air, const std::string& pointer, Problems& problems) {

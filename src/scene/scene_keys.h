@@ -89,6 +89,9 @@ inline constexpr Parameter solver_keys[] = {
                            "stretch"},
     {.key = "iterations", .kind = ParameterKind::integer, .offset = offsetof(SolverDesc, iterations), .min = 1,
      .max = 10000, .what = "iterations over all constraints per substep; more substeps reduce the error more"},
+    {.key = "compensation", .kind = ParameterKind::choice, .offset = offsetof(SolverDesc, compensation),
+     .what = "keep what rounding drops from displacements by constraints: `auto`: in substeps shorter than 1/2400 s",
+     .choices = "auto|on|off"},
 };
 
 inline constexpr Parameter air_keys[] = {

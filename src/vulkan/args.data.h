@@ -156,6 +156,7 @@ struct ParticleArgs {
     FrameRef frame;
     Uints report;
     Floats steady_parts;  // of the acceleration by gravity; 0: all of it
+    Vec4s remainder;      // what rounding dropped from displacements in this substep, m; 0: not kept
     uint count;
     uint unused;
 };
@@ -225,7 +226,7 @@ struct GrabArgs {
 // Constraints of one kind: a batch, or all of them.
 struct RowArgs {
     Vec4s position;
-    Vec4s velocity;     // damp, weigh_taut
+    Vec4s moves;        // damp, weigh_taut: velocity; otherwise ParticleArgs::remainder
     Uints particles;    // [slot · stride + row]
     Floats fields;      // [field · stride + row]
     Floats lambda;      // [multiplier · stride + row]; 0 if it is not stored
@@ -262,6 +263,7 @@ struct LineArgs {
     Floats lambda;
     Uints blocks;
     Vec4s scratch;  // [part · stride + row], two parts
+    Vec4s remainder;  // as in ParticleArgs
     FrameRef frame;
     uint stride;
     uint count;  // blocks
@@ -286,6 +288,7 @@ struct AverageArgs {
     Uints sums;  // in fixed point, reset to zero when read; 0 for floats
     Uints offsets;
     Uints items;
+    Vec4s remainder;  // as in ParticleArgs
     uint count;
     uint mean;  // 1: divide the sum by the number of terms
 };
@@ -300,6 +303,7 @@ struct LevelArgs {
     Uints begin;    // restriction: layout of Restriction (solver/model/hierarchy.h)
     Uints nodes;    // likewise; otherwise the parents, [parent · stride + finer node]
     Floats weights;
+    Vec4s remainder;  // as in ParticleArgs, of the level's nodes; prolongation: of the particles
     uint stride;
     uint count;
 };
@@ -307,6 +311,7 @@ struct LevelArgs {
 // All constraints of a coarse level with few nodes, sweep by sweep and batch by batch, solved by one workgroup.
 struct LevelLimitArgs {
     Vec4s position;  // of the level's nodes
+    Vec4s remainder;
     Uints particles;
     Floats fields;
     Floats lambda;
@@ -427,6 +432,7 @@ struct KeepArgs {
     Floats weights;  // 1/kg: current inverse masses
     Floats kept;         // ClothModel::kept_floats()
     Floats good_kept;    // 0: a frame does not read those of the frame before
+    Vec4s remainder;     // as in ParticleArgs
     Uints report;
     Uints island_report;  // of the island's first cloth: a non-finite number in one cloth rolls all back
     uint count;

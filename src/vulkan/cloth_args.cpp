@@ -12,6 +12,7 @@ ParticleArgs ClothArgs::particle_args() const {
             .frame = input_.frame(),
             .report = input_.report(),
             .steady_parts = work_.steady_parts.bytes > 0 ? work(work_.steady_parts) : 0,
+            .remainder = remainder(),
             .count = model_.point_count(),
             .unused = 0};
 }
@@ -38,6 +39,7 @@ KeepArgs ClothArgs::keep_args() const {
             .weights = state(cloth_.weights),
             .kept = state(cloth_.kept),
             .good_kept = work_.good_kept.bytes > 0 ? work(work_.good_kept) : 0,
+            .remainder = remainder(),
             .report = input_.report(),
             .island_report = island_.report,
             .count = model_.point_count(),
@@ -125,6 +127,15 @@ AroundArgs ClothArgs::around_args() const {
             .unused = 0};
 }
 
+std::uint64_t ClothArgs::remainder() const {
+    return work_.remainder.bytes > 0 ? work(work_.remainder) : 0;
+}
+
+std::uint64_t ClothArgs::remainder_of_level(std::uint32_t level) const {
+    const Slot& slot = work_.levels[level].remainder;
+    return slot.bytes > 0 ? work(slot) : 0;
+}
+
 std::uint64_t ClothArgs::lambda_of(ConstraintKind kind) const {
     return kind == ConstraintKind::stretch ? state(cloth_.kept) : work(work_.lambda[static_cast<std::uint32_t>(kind)]);
 }
@@ -139,7 +150,7 @@ RowArgs ClothArgs::row_args(ConstraintKind kind) const {
     const auto index = static_cast<std::uint32_t>(kind);
     const TableBuffers& rows = buffers_.tables[index];
     return {.position = state(PointArray::position),
-            .velocity = state(PointArray::velocity),
+            .moves = remainder(),
             .particles = of_model(rows.particles),
             .fields = of_model(rows.fields),
             .lambda = lambda_of(kind),

@@ -34,6 +34,8 @@ class ClothArgs {
     FaceArgs face_args() const;
     AroundArgs around_args() const;
     std::uint64_t lambda_of(ConstraintKind kind) const;
+    std::uint64_t remainder() const;  ///< ParticleArgs
+    std::uint64_t remainder_of_level(std::uint32_t level) const;
     std::uint64_t shifts_of(ConstraintKind kind) const;
     std::uint32_t use_of_lambda(const Pass& pass, std::uint32_t substep) const;
     RowArgs row_args(ConstraintKind kind) const;

@@ -53,7 +53,8 @@ Result<WorkBuffers> WorkBuffers::create(gpu::Device& device, const ClothModel& m
             work.levels.push_back({.position = work.arena.add_array(start),
                                    .origin = work.arena.reserve(bytes),
                                    .displacement = work.arena.reserve(bytes),
-                                   .lambda = work.arena.reserve(coarse.limits.stride * sizeof(float))});
+                                   .lambda = work.arena.reserve(coarse.limits.stride * sizeof(float)),
+                                   .remainder = plan.compensated ? work.arena.reserve(bytes) : Slot{}});
         }
     }
     for (const ConstraintTable& table : model.constraints) {
@@ -63,6 +64,7 @@ Result<WorkBuffers> WorkBuffers::create(gpu::Device& device, const ClothModel& m
     }
     if (plan.steadies && model.has_pin_loads())
         work.steady_parts = work.arena.reserve(model.capacity() * sizeof(float));
+    if (plan.compensated) work.remainder = work.arena.reserve(model.capacity() * block);
     if (plan.weighs_taut) work.taut = work.arena.reserve(model.capacity() * block);
     if (plan.reads_kept) work.good_kept = work.arena.reserve(model.kept_floats() * sizeof(float));
     if (shape.colliders > 0) {

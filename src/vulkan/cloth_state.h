@@ -25,7 +25,7 @@ inline constexpr std::uint32_t most_near_slots = 1u << 27;
 /// Buffers that a plan needs beside the particles. Their contents are valid within one frame only.
 struct WorkBuffers {
     struct Level {
-        Slot position, origin, displacement, lambda;
+        Slot position, origin, displacement, lambda, remainder;
     };
 
     Arena arena;
@@ -36,7 +36,7 @@ struct WorkBuffers {
     Slot near_slots;                                 ///< colliders in the lists
     std::uint32_t slot_count = 0;                    ///< room of near_slots
     Slot taut;                                       ///< TautArgs::sums
-    Slot steady_parts;                               ///< ParticleArgs
+    Slot steady_parts, remainder;                    ///< ParticleArgs
     Slot good_kept;                                  ///< KeepArgs
     Slot contact_sums;                               ///< by slot and particle in the tile
     Slot supports;                                   ///< ContactArgs

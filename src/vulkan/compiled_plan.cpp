@@ -249,6 +249,7 @@ class Compiler : ClothArgs {
         RowArgs args = row_args(pass.constraint);
         const std::uint32_t invocations = hand_out(args, batch, of_model(buffers.blocks));
         std::string program = pass.kind == PassKind::damp ? "damp_" : plain ? "plain_" : "project_";
+        if (pass.kind == PassKind::damp) args.moves = state(PointArray::velocity);
         if (pass.kind == PassKind::project && !plain) args.modes |= use_of_lambda(pass, substep);
         add(list, program + std::string(constraint_info(pass.constraint).name), args, invocations, pass, substep);
     }
@@ -256,7 +257,7 @@ class Compiler : ClothArgs {
     void add_taut_weights(List& list, const Pass& pass, std::uint32_t substep) {
         const TableBuffers& buffers = buffers_.tables[static_cast<std::uint32_t>(pass.constraint)];
         RowArgs args = row_args(pass.constraint);
-        args.velocity = state(PointArray::velocity);
+        args.moves = state(PointArray::velocity);
         args.corrections = work(work_.taut);
         const Batch& batch = model_.table(pass.constraint).batches[pass.batch];
         const std::uint32_t invocations = hand_out(args, batch, of_model(buffers.blocks));
@@ -269,7 +270,7 @@ class Compiler : ClothArgs {
         const bool plain = plan_.method == Method::pbd;
         RowArgs args = row_args(pass.constraint);
         args.position = cloth_.world().address(PointArray::position, 0);
-        args.velocity = 0;
+        args.moves = 0;
         args.particles = island_.links->address(table.particles);
         args.fields = island_.links->address(table.fields);
         args.lambda = island_.links->address(table.lambda);
@@ -294,6 +295,7 @@ class Compiler : ClothArgs {
             .lambda = state(cloth_.kept),
             .blocks = of_model(buffers.blocks) + std::uint64_t{batch.first_block} * 2 * sizeof(std::uint32_t),
             .scratch = work(work_.line_scratch),
+            .remainder = remainder(),
             .frame = input_.frame(),
             .stride = table.stride,
             .count = batch.blocks,
@@ -324,6 +326,7 @@ class Compiler : ClothArgs {
                                .sums = work(work_.sums),
                                .offsets = work(work_.gather_offsets),
                                .items = work(work_.gather_items),
+                               .remainder = remainder(),
                                .count = model_.point_count(),
                                .mean = plan_.method == Method::pbd ? 1u : 0u};
         add(list, "average", args, args.count, pass, substep);
@@ -436,6 +439,7 @@ class Compiler : ClothArgs {
             .begin = of_model(buffers_.levels[pass.level].restriction_begin),
             .nodes = of_model(buffers_.levels[pass.level].restriction_node),
             .weights = of_model(buffers_.levels[pass.level].restriction_weight),
+            .remainder = remainder_of_level(pass.level),
             .stride = 0,
             .count = level.count};
         if (pass.kind == PassKind::interpolation) limits_follow_ = true;
@@ -460,6 +464,7 @@ class Compiler : ClothArgs {
     void add_prolongation(List& list, const Pass& pass, std::uint32_t substep) {
         LevelArgs args{};
         args.position = state(PointArray::position);
+        args.remainder = remainder();
         args.count = model_.particle_count;
         follow(args, 0);
         add(list, "prolongation", args, args.count, pass, substep);
@@ -471,6 +476,7 @@ class Compiler : ClothArgs {
         const LevelBuffers& buffers = buffers_.levels[pass.level];
         const WorkBuffers::Level& mine = work_.levels[pass.level];
         const LevelLimitArgs args{.position = work(mine.position),
+                                  .remainder = remainder_of_level(pass.level),
                                   .particles = of_model(buffers.limits.particles),
                                   .fields = of_model(buffers.limits.fields),
                                   .lambda = work(mine.lambda),
@@ -501,6 +507,7 @@ class Compiler : ClothArgs {
         const TableBuffers& rows = buffers_.levels[pass.level].limits;
         RowArgs args = row_args(ConstraintKind::coarse_limit);
         args.position = work(work_.levels[pass.level].position);
+        args.moves = remainder_of_level(pass.level);
         args.particles = of_model(rows.particles);
         args.fields = of_model(rows.fields);
         args.lambda = work(work_.levels[pass.level].lambda);

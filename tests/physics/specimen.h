@@ -57,12 +57,14 @@ class Specimen {
     struct Steps {
         double dt;  ///< s, of a frame
         std::uint32_t substeps = 10, iterations = 1;
+        Compensation compensation = Compensation::automatic;
     };
 
     Specimen(std::shared_ptr<const ClothModel> model, const Steps& steps)
-        : cloth_(std::move(model), {.solver = {.substeps = steps.substeps, .iterations = steps.iterations},
+        : cloth_(std::move(model), {.solver = solver(steps),
                                     .contacts = false,
-                                    .surface = false}),
+                                    .surface = false,
+                                    .compensated = compensates(solver(steps), steps.dt)}),
           dt_(steps.dt) {}
 
     const ClothModel& model() const { return cloth_.model(); }
@@ -105,6 +107,10 @@ class Specimen {
     static constexpr float gravity = 9.81f;  ///< m/s², along -y
 
   private:
+    static SolverDesc solver(const Steps& steps) {
+        return {.substeps = steps.substeps, .iterations = steps.iterations, .compensation = steps.compensation};
+    }
+
     LoneCloth cloth_;
     double dt_;
     std::uint32_t reports_ = report_none;

@@ -51,13 +51,21 @@ std::shared_ptr<const ClothModel> model_of(const RandomState& state) {
     return model;
 }
 
-enum class Way { project, plain, side_by_side, fixed_point, damp };
+enum class Way { project, plain, side_by_side, fixed_point, damp, project_exactly, side_by_side_exactly };
+
+bool keeps_remainders(Way way) {
+    return way == Way::project_exactly || way == Way::side_by_side_exactly;
+}
 
 // Whether constraints.def lists a loop for it.
 bool exists(const ConstraintInfo& info, Way way) {
     switch (way) {
         case Way::project:
             return true;
+        case Way::project_exactly:  // one particle alone is not relative to another
+            return info.source == RowSource::model || info.source == RowSource::level;
+        case Way::side_by_side_exactly:
+            return info.source == RowSource::model;
         case Way::plain:
             return info.source == RowSource::model || info.source == RowSource::links;
         case Way::side_by_side:
@@ -77,7 +85,8 @@ WorldPlan plan_of(const ConstraintTable& table, Way way) {
     plan.iterations = iterations;
     plan.method = way == Way::plain ? Method::pbd : Method::xpbd;
     if (way == Way::fixed_point) plan.accumulate = Accumulate::fixed_point;
-    const bool jacobi = way == Way::side_by_side || way == Way::fixed_point;
+    plan.compensated = keeps_remainders(way);
+    const bool jacobi = way == Way::side_by_side || way == Way::fixed_point || way == Way::side_by_side_exactly;
     plan.projection = jacobi ? Projection::jacobi : table.blocks.empty() ? Projection::gauss_seidel : Projection::lines;
     for (std::uint32_t i = 0; i < iterations; ++i) {
         const bool first = i == 0;
@@ -87,11 +96,13 @@ WorldPlan plan_of(const ConstraintTable& table, Way way) {
         }
         for (std::uint32_t batch = 0; batch < table.batches.size(); ++batch) {
             const Pass pass{PassKind::project, table.kind, batch, first};
-            if (way == Way::project || way == Way::plain) plan.substep.push_back(pass);
+            if (way == Way::project || way == Way::plain || way == Way::project_exactly) plan.substep.push_back(pass);
             if (way == Way::damp && first && constraint_info(table.kind).moved == constraint_info(table.kind).arity)
                 plan.frame_end.push_back({.kind = PassKind::damp, .constraint = table.kind, .batch = batch});
         }
     }
+    // The remainders come to light in what the end of a substep makes of them.
+    if (plan.compensated) plan.substep.push_back({.kind = PassKind::velocities});
     if (table.is_coupled() && plan.method == Method::xpbd && way != Way::damp) {
         plan.substep.push_back({.kind = PassKind::couple, .constraint = table.kind});
         plan.reads_kept = true;
@@ -173,6 +184,9 @@ class Parity : public testing::TestWithParam<const char*> {
         expect_same(cpu.state.position, vulkan.state.position, positions, relative, what + ", position");
         expect_same(cpu.state.velocity, vulkan.state.velocity, velocities, relative, what + ", velocity");
         if (exact_) {
+            expect_same(cpu.state.compensation, vulkan.state.compensation, velocities, relative,
+                        what + ", compensation");
+            expect_same(cpu.state.start, vulkan.state.start, velocities, relative, what + ", start");
             ASSERT_EQ(cpu.state.kept.size(), vulkan.state.kept.size());
             for (std::size_t i = 0; i < cpu.state.kept.size(); ++i) {
                 if (!state.is_row(i)) continue;
@@ -201,7 +215,9 @@ TEST_P(Parity, of_every_constraint_in_every_way) {
                                                     {Way::plain, "plain"},
                                                     {Way::side_by_side, "side by side"},
                                                     {Way::fixed_point, "fixed point"},
-                                                    {Way::damp, "damp"}};
+                                                    {Way::damp, "damp"},
+                                                    {Way::project_exactly, "project exactly"},
+                                                    {Way::side_by_side_exactly, "side by side, exactly"}};
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     constexpr unsigned seeds = 2;  // a degenerate and an ordinary one; more would take minutes
     // Each way of each kind is a fused program of its own, and software drivers take long to compile one.
@@ -246,7 +262,7 @@ TEST_P(Parity, of_lines) {
         const bool degenerate = seed % 2;
         RandomState state = random_points(seed, degenerate);
         add_lines(state, seed + 100, degenerate);
-        for (const Way way : {Way::project, Way::plain, Way::damp})
+        for (const Way way : {Way::project, Way::plain, Way::damp, Way::project_exactly})
             compare(state, way, degenerate, "lines, seed " + std::to_string(seed));
     }
 }

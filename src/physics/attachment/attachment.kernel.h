@@ -12,6 +12,6 @@ WEFT_FN void project_attachment(inout_(vec3) x, inout_(vec3) anchor, real w, rea
     mask able = w > real(0) && len2 > real(1e-20);
     real s = select(able, -(len + alpha * lambda) / ((w + anchor_w + alpha) * len), real(0));  // delta lambda / |d|
     lambda = lambda + s * len;
-    x = x + d * (w * s);
+    displace(x, d * (w * s), step);
     anchor = select(anchor_w > real(0), anchor - d * (anchor_w * s), anchor);
 }

@@ -105,10 +105,10 @@ WEFT_FN void project_bend(inout_(vec3) a, inout_(vec3) b, inout_(vec3) c, inout_
     lambda = lambda + push * select(able, h1122 * inv, real(0));
     g1 = g1 * push;
     g2 = g2 * push;
-    a = a + (g1 * uc + g2 * ud) * wa;
-    b = b - (g1 * h.tc + g2 * h.td) * wb;
-    c = c + g1 * wc;
-    d = d + g2 * wd;
+    displace(a, (g1 * uc + g2 * ud) * wa, step);
+    displace(b, (g1 * h.tc + g2 * h.td) * -wb, step);
+    displace(c, g1 * wc, step);
+    displace(d, g2 * wd, step);
 }
 
 // Viscosity parallel to the spring: an implicit impulse against the rate of change of the angle. `viscous` is the

@@ -18,6 +18,6 @@ WEFT_FN void project_coarse_limit(inout_(vec3) a, inout_(vec3) b, real wa, real 
     mask able = len2 > real(1e-20) && w > real(0);
     real s = select(able, (next - lambda) / len, real(0));
     lambda = lambda + s * len;
-    a = a + d * (wa * s);
-    b = b - d * (wb * s);
+    displace(a, d * (wa * s), step);
+    displace(b, d * -(wb * s), step);
 }

@@ -9,7 +9,15 @@ struct Step {
     real shift_c; // rad  of the rest angle of a moment, by the triangle with c
     real shift_d; //      by that with d
     real undone;  //      part of its weight by which a constraint of bending is softer after the sweep; 0 if unknown
+    bool apart;   //      projections return displacements in place of places, for move_exactly()
 };
+
+// Moves a particle by a projection.
+WEFT_FN void displace(inout_(vec3) x, vec3 by, Step step)
+{
+    if (step.apart) x = by;
+    else x = x + by;
+}
 
 // A particle's velocity and the compensation for what rounding drops when a small increment meets a large velocity.
 struct Motion {
@@ -48,6 +56,30 @@ WEFT_FN mask update_velocity(inout_(Motion) m, vec3 x, vec3 start, real w, real 
     m.x_dropped = select(moves, t - (predicted - start), vec3(real(0)));
     // A kinematic particle has the velocity of its prescribed motion.
     vec3 v = select(moves, m.v + (x - predicted) * step.inv_h, (x - start) * step.inv_h);
+    m.v = cap_speed(v, max_speed);
+    return too_fast(v, max_speed);
+}
+
+// Moves a particle, and keeps what rounding drops.
+WEFT_FN void move_exactly(inout_(vec3) x, inout_(vec3) remainder, vec3 by)
+{
+    vec3 t = remainder + by;
+    vec3 moved = x + t;
+    remainder = t - (moved - x);
+    x = moved;
+}
+
+// As update_velocity(), where projections keep what rounding drops from them: `x` and `remainder` are the place together. The change
+// of the velocity keeps its rounding error too.
+WEFT_FN mask update_velocity_exactly(inout_(Motion) m, vec3 x, vec3 remainder, vec3 start, real w, real max_speed, Step step)
+{
+    vec3 t = m.v * step.h + m.x_dropped;
+    vec3 predicted = start + t;
+    mask moves = w > real(0);
+    m.x_dropped = select(moves, (t - (predicted - start)) + remainder, vec3(real(0)));
+    vec3 dv = ((x - predicted) + remainder) * step.inv_h + m.v_dropped;
+    vec3 v = select(moves, m.v + dv, (x - start) * step.inv_h);
+    m.v_dropped = select(moves, dv - (v - m.v), vec3(real(0)));
     m.v = cap_speed(v, max_speed);
     return too_fast(v, max_speed);
 }

@@ -87,9 +87,9 @@ WEFT_FN void project_membrane(inout_(vec3) a, inout_(vec3) b, inout_(vec3) c, re
     lambda_a = lambda_a + dl.x;
     lambda_b = lambda_b + dl.y;
     lambda_c = lambda_c + dl.z;
-    a = a + (g.x.a * dl.x + g.y.a * dl.y + g.z.a * dl.z) * wa;
-    b = b + (g.x.b * dl.x + g.y.b * dl.y + g.z.b * dl.z) * wb;
-    c = c + (g.x.c * dl.x + g.y.c * dl.y + g.z.c * dl.z) * wc;
+    displace(a, (g.x.a * dl.x + g.y.a * dl.y + g.z.a * dl.z) * wa, step);
+    displace(b, (g.x.b * dl.x + g.y.b * dl.y + g.z.b * dl.z) * wb, step);
+    displace(c, (g.x.c * dl.x + g.y.c * dl.y + g.z.c * dl.z) * wc, step);
 }
 
 // Viscosity parallel to the spring: an implicit impulse against the rates of change of C. `viscous` is the retardation

@@ -109,12 +109,12 @@ WEFT_FN void project_plate(inout_(vec3) da, inout_(vec3) db, inout_(vec3) dc,
     lambda_b = lambda_b + dl.y;
     lambda_c = lambda_c + dl.z;
     vec3 m = coupled_forces(l, dl);
-    da = da + t.a.gd * (wda * m.x);
-    db = db + t.b.gd * (wdb * m.y);
-    dc = dc + t.c.gd * (wdc * m.z);
-    a = a + (t.a.go * m.x + t.b.gq * m.y + t.c.gp * m.z) * wa;
-    b = b + (t.a.gp * m.x + t.b.go * m.y + t.c.gq * m.z) * wb;
-    c = c + (t.a.gq * m.x + t.b.gp * m.y + t.c.go * m.z) * wc;
+    displace(da, t.a.gd * (wda * m.x), step);
+    displace(db, t.b.gd * (wdb * m.y), step);
+    displace(dc, t.c.gd * (wdc * m.z), step);
+    displace(a, (t.a.go * m.x + t.b.gq * m.y + t.c.gp * m.z) * wa, step);
+    displace(b, (t.a.gp * m.x + t.b.go * m.y + t.c.gq * m.z) * wb, step);
+    displace(c, (t.a.gq * m.x + t.b.gp * m.y + t.c.go * m.z) * wc, step);
 }
 
 // Viscosity parallel to the spring: an implicit impulse against the rates of change of the angles. `viscous` is the

@@ -28,10 +28,10 @@ WEFT_FN void project_stitch(inout_(vec3) x0, inout_(vec3) x1, inout_(vec3) x2, i
     mask able = w > real(0) && len2 > real(1e-20);
     real s = select(able, -(len - row.gap + alpha * lambda) / ((w + alpha) * len), real(0));   // delta lambda / |d|
     lambda = lambda + s * len;
-    x0 = x0 + d * (w0 * row.c0 * s);
-    x1 = x1 + d * (w1 * row.c1 * s);
-    x2 = x2 + d * (w2 * row.c2 * s);
-    x3 = x3 + d * (w3 * row.c3 * s);
-    x4 = x4 + d * (w4 * row.c4 * s);
-    x5 = x5 + d * (w5 * row.c5 * s);
+    displace(x0, d * (w0 * row.c0 * s), step);
+    displace(x1, d * (w1 * row.c1 * s), step);
+    displace(x2, d * (w2 * row.c2 * s), step);
+    displace(x3, d * (w3 * row.c3 * s), step);
+    displace(x4, d * (w4 * row.c4 * s), step);
+    displace(x5, d * (w5 * row.c5 * s), step);
 }

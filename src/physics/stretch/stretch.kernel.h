@@ -36,8 +36,8 @@ WEFT_FN void project_stretch(inout_(vec3) a, inout_(vec3) b, real wa, real wb,
     mask able = w > real(0) && now.len2 > real(1e-20);
     real s = select(able, -num / den, real(0));   // delta lambda / |d|: one division instead of two
     lambda = lambda + s * now.len;
-    a = a + now.d * (wa * s);
-    b = b - now.d * (wb * s);
+    displace(a, now.d * (wa * s), step);
+    displace(b, now.d * -(wb * s), step);
 }
 
 // Viscosity parallel to the spring: an implicit impulse along the edge against the rate of change of its length, which

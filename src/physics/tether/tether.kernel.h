@@ -13,5 +13,5 @@ WEFT_FN void project_tether(inout_(vec3) x, inout_(vec3) anchor, real w, real an
     real len = sqrt(max(len2, real(1e-30)));
     real c = select(taut, len - radius, real(0));
     lambda = lambda - c / max(w, real(1e-30));
-    x = x - d * (c / len);
+    displace(x, d * -(c / len), step);
 }

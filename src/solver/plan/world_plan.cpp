@@ -19,6 +19,7 @@ class Planner {
         WorldPlan plan{settings_.solver, 0, {}, {}, {}};
         plan.projection = resolve(plan.projection, plan.method);
         plan.weighs_taut = weighs_taut();
+        plan.compensated = settings_.compensated;
         plan.steadies = steadies();
         if (plan.steadies) plan.frame_begin.push_back({.kind = PassKind::steady});
         plan.reads_kept = plan.weighs_taut || !coupled().empty();

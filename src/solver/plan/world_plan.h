@@ -21,6 +21,15 @@ constexpr Projection resolve(Projection projection, Method method) {
     return method == Method::xpbd ? Projection::lines : Projection::gauss_seidel;
 }
 
+/// s: in shorter substeps, rounding drops a noticeable part of what projections move particles by.
+inline constexpr double short_substep = 1.0 / 2400;
+
+/// Whether projections keep what rounding drops, in frames of `dt` seconds.
+constexpr bool compensates(const SolverDesc& solver, double dt) {
+    if (solver.compensation != Compensation::automatic) return solver.compensation == Compensation::on;
+    return solver.method == Method::xpbd && dt < short_substep * solver.substeps;
+}
+
 /// Sweeps over the contacts of faces with colliders. One more follows, which keeps faces from passing.
 inline constexpr std::uint32_t face_sweeps = 3;
 /// How often particles of faces that have passed in spite of that are held.
@@ -33,13 +42,14 @@ inline constexpr std::uint32_t body_sweeps = 3;
 /// the passes of `solver.hierarchy`.
 struct StepSettings {
     SolverDesc solver = {};
-    bool contacts = true;   ///< there are colliders
-    bool faces = false;     ///< faces of a cloth may touch a collider where their corners do not
-    bool air = false;       ///< there is air
-    bool wind = false;      ///< the air moves
-    bool adhesion = false;  ///< a collider has adhesion
-    bool bodies = false;    ///< colliders that move by forces
-    bool surface = true;    ///< compute normals
+    bool contacts = true;      ///< there are colliders
+    bool faces = false;        ///< faces of a cloth may touch a collider where their corners do not
+    bool air = false;          ///< there is air
+    bool wind = false;         ///< the air moves
+    bool adhesion = false;     ///< a collider has adhesion
+    bool bodies = false;       ///< colliders that move by forces
+    bool surface = true;       ///< compute normals
+    bool compensated = false;  ///< projections keep what rounding drops
     friend bool operator==(const StepSettings&, const StepSettings&) = default;
 };
 
@@ -65,6 +75,7 @@ struct WorldPlan : SolverDesc {
     std::vector<Pass> frame_end;
     bool weighs_taut = false;  ///< taut edges add mass, by lambda of the substep before
     bool steadies = false;     ///< particles near pins are heavier
+    bool compensated = false;  ///< projections keep what rounding drops
     bool reads_kept = false;   ///< a frame reads ClothModel::kept_floats() of the frame before
 };
 

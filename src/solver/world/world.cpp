@@ -304,7 +304,8 @@ void World::replan() {
         .wind = air && !settings_.air->wind.empty(),
         .adhesion = std::ranges::any_of(colliders_, [](const Collider& c) { return !!c.adhesion; }),
         .bodies = std::ranges::any_of(colliders_, [](const Collider& c) { return !!c.body; }),
-        .surface = settings_.surface};
+        .surface = settings_.surface,
+        .compensated = compensated_};
     const std::size_t places = std::size_t{settings_.solver.substeps} + 1;
     std::vector<PlannedCloth> planned, planned_surfaces;
     for (std::size_t i = 0; i < cloths_.size(); ++i) {
@@ -435,7 +436,8 @@ void World::place_motions(Cloth& cloth, double dt) const {
 void World::advance(double dt) {
     assert(dt > 0 && std::isfinite(dt));
     complete();
-    if (!torn_.empty()) replan();
+    const bool compensated = compensates(settings_.solver, dt);
+    if (compensated != std::exchange(compensated_, compensated) || !torn_.empty()) replan();
     while (const auto ready = pending_.take_due(frame_.index + 1)) use_model(*ready);
     if (settings_.background) pending_.start_next();
     begin_surfaces();

@@ -303,6 +303,7 @@ class World {
     std::unique_ptr<Backend> backend_;
     WorldSettings settings_;
     mutable IdList<Cloth, struct ClothTag> cloths_;
+    bool compensated_ = false;           ///< of the last frame: compensates()
     mutable std::vector<ClothId> torn_;  ///< cloths whose models changed by tearing since the last replan()
     mutable IdList<Collider, struct ColliderTag> colliders_;
     mutable std::vector<Surface> surfaces_;  ///< of colliders, in the order in which they were added

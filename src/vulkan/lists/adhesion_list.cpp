@@ -74,7 +74,7 @@ Result<std::unique_ptr<AdhesionList>> AdhesionList::create(gpu::Device& device, 
                    .end = static_cast<std::uint32_t>(items)};
     // Adhesion has no fabric that scales it as a plain constraint, so it is corrected fully.
     self->rows_ = {.position = position,
-                   .velocity = 0,
+                   .moves = 0,
                    .particles = self->args_.particles,
                    .fields = self->args_.fields,
                    .lambda = arena.address(lambda),

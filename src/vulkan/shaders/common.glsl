@@ -76,16 +76,16 @@ vec3 gravity_of(FrameRef frame) { return vec3(frame.at.gravity_x, frame.at.gravi
 
 Step substep_of(FrameRef frame)
 {
-    return Step(frame.at.h, frame.at.inv_h, frame.at.inv_h2, 0.0, 1.0, 0.0, 0.0, 0.0);
+    return Step(frame.at.h, frame.at.inv_h, frame.at.inv_h2, 0.0, 1.0, 0.0, 0.0, 0.0, false);
 }
 
 Step substep_with(FrameRef frame, LimitsRef limits)
 {
-    return Step(frame.at.h, frame.at.inv_h, frame.at.inv_h2, limits.at.tension, limits.at.allowed, 0.0, 0.0, 0.0);
+    return Step(frame.at.h, frame.at.inv_h, frame.at.inv_h2, limits.at.tension, limits.at.allowed, 0.0, 0.0, 0.0, false);
 }
 
 // A step in which every constraint is rigid: compliance times inv_h2 is 0.
-Step rigid_step(LimitsRef limits) { return Step(1e3, 1e-3, 0.0, limits.at.tension, limits.at.allowed, 0.0, 0.0, 0.0); }
+Step rigid_step(LimitsRef limits) { return Step(1e3, 1e-3, 0.0, limits.at.tension, limits.at.allowed, 0.0, 0.0, 0.0, false); }
 
 // Tests the bits, because a driver may assume that no number is a NaN.
 bool is_finite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u; }

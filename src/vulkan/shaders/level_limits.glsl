@@ -48,10 +48,21 @@ void project_level_row(LevelRow row, bool accumulates, Step h)
     vec4 a, b;
     if (in_shared) a = level_nodes[row.a], b = level_nodes[row.b];
     else a = level_limit_args.at.position.at[row.a], b = level_limit_args.at.position.at[row.b];
-    vec3 x = a.xyz, y = b.xyz;
+    vec3 x = a.xyz, y = b.xyz, left_x = vec3(0.0), left_y = vec3(0.0);
+    h.apart = !is_none(uvec2(level_limit_args.at.remainder));
+    if (h.apart) {
+        left_x = level_limit_args.at.remainder.at[row.a].xyz, left_y = level_limit_args.at.remainder.at[row.b].xyz;
+        x = vec3(0.0), y = (b.xyz - a.xyz) + (left_y - left_x);
+    }
     float lambda = accumulates ? level_limit_args.at.lambda.at[row.r] : 0.0;
     project_coarse_limit(x, y, a.w, b.w, lambda, row.numbers, h);
     level_limit_args.at.lambda.at[row.r] = lambda;
+    if (h.apart) {
+        move_exactly(a.xyz, left_x, x), move_exactly(b.xyz, left_y, y);
+        level_limit_args.at.remainder.at[row.a] = vec4(left_x, 0.0);
+        level_limit_args.at.remainder.at[row.b] = vec4(left_y, 0.0);
+        x = a.xyz, y = b.xyz;
+    }
     if (in_shared) level_nodes[row.a] = vec4(x, a.w), level_nodes[row.b] = vec4(y, b.w);
     else level_limit_args.at.position.at[row.a] = vec4(x, a.w), level_limit_args.at.position.at[row.b] = vec4(y, b.w);
 }
@@ -73,7 +84,7 @@ void run_level_limits()
         uint begin = level_limit_args.at.batches.at[2u * batch], rows = level_limit_args.at.batches.at[2u * batch + 1u];
         batch = batch + 1u < batches ? batch + 1u : 0u;
         next = level_row_of(batch, me);
-        if (in_shared) shared_barrier();
+        if (in_shared && is_none(uvec2(level_limit_args.at.remainder))) shared_barrier();
         else workgroup_barrier();
         if (row.r == WEFT_NO_ROW) continue;
         bool serial = rows >= WEFT_SERIAL_BATCH;

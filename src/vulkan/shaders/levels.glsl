@@ -28,14 +28,16 @@ void run_restriction(uint i)
 
 void run_interpolation(uint i)
 {
-    vec3 x = level_args.at.origin.at[i].xyz;
-    if (!is_none(uvec2(level_args.at.coarser))) x = x + interpolated(i);
+    vec3 x = level_args.at.origin.at[i].xyz, remainder = vec3(0.0);
+    if (!is_none(uvec2(level_args.at.coarser))) move_exactly(x, remainder, interpolated(i));
+    if (!is_none(uvec2(level_args.at.remainder))) level_args.at.remainder.at[i] = vec4(remainder, 0.0);
     store_point(level_args.at.position, i, vec4(x, load_point(level_args.at.position, i).w));
 }
 
 void run_node_correction(uint i)
 {
     vec3 moved = load_point(level_args.at.position, i).xyz - level_args.at.origin.at[i].xyz;
+    if (!is_none(uvec2(level_args.at.remainder))) moved = moved + level_args.at.remainder.at[i].xyz;
     level_args.at.displacement.at[i] = vec4(moved, 0.0);
 }
 
@@ -44,7 +46,15 @@ void run_prolongation(uint i)
     vec4 x = load_point(level_args.at.position, i);
     // The weights of the levels may be older than a pin, so a pinned particle may have a displacement.
     float moves = x.w > 0.0 ? 1.0 : 0.0;
-    store_point(level_args.at.position, i, vec4(x.xyz + interpolated(i) * moves, x.w));
+    vec3 by = interpolated(i) * moves;
+    if (is_none(uvec2(level_args.at.remainder))) {
+        x.xyz = x.xyz + by;
+    } else {
+        vec3 remainder = level_args.at.remainder.at[i].xyz;
+        move_exactly(x.xyz, remainder, by);
+        level_args.at.remainder.at[i] = vec4(remainder, 0.0);
+    }
+    store_point(level_args.at.position, i, x);
 }
 
 #endif

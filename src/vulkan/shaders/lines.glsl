@@ -58,7 +58,13 @@ void begin_row(LineRound round, uint r, Step h)
     vec4 from = load_point(line_args.at.position, line_args.at.particles.at[r]);
     vec4 to = load_point(line_args.at.position, line_args.at.particles.at[line_args.at.stride + r]);
     float lambda = line_args.at.lambda_use == WEFT_LAMBDA_ACCUMULATE ? line_args.at.lambda.at[r] : 0.0;
-    LineTerms t = line_terms(from.xyz, to.xyz, from.w, to.w, lambda, line_row(r), h);
+    vec3 a = from.xyz, b = to.xyz;
+    if (!is_none(uvec2(line_args.at.remainder))) {
+        a = vec3(0.0);
+        b = (to.xyz - from.xyz) + (line_args.at.remainder.at[line_args.at.particles.at[line_args.at.stride + r]].xyz -
+                                   line_args.at.remainder.at[line_args.at.particles.at[r]].xyz);
+    }
+    LineTerms t = line_terms(a, b, from.w, to.w, lambda, line_row(r), h);
     line_args.at.scratch.at[r] = vec4(t.n, from.w);
     keep_number(round, r, vec4(t.limit, t.couples, t.diagonal, t.rhs));
 }
@@ -104,6 +110,20 @@ void solve_line(LineRound round, uint begin, uint length)
     }
 }
 
+void move_line_point(uint p, vec3 by)
+{
+    vec4 x = load_point(line_args.at.position, p);
+    by = by * x.w;
+    if (is_none(uvec2(line_args.at.remainder))) {
+        x.xyz = x.xyz + by;
+    } else {
+        vec3 remainder = line_args.at.remainder.at[p].xyz;
+        move_exactly(x.xyz, remainder, by);
+        line_args.at.remainder.at[p] = vec4(remainder, 0.0);
+    }
+    store_point(line_args.at.position, p, x);
+}
+
 // Each row moves its second particle. The first row of a line also moves its first particle.
 void end_row(LineRound round, uint r, bool first, bool last)
 {
@@ -117,12 +137,8 @@ void end_row(LineRound round, uint r, bool first, bool last)
     if (!last) pull = line_args.at.scratch.at[r + WEFT_LANE_PADDING].xyz * line_number(round, r + WEFT_LANE_PADDING).x;
     // Padding connects the end of a line to itself. The last real row moves that particle.
     if (from != to) {
-        vec4 x = load_point(line_args.at.position, to);
-        store_point(line_args.at.position, to, vec4(x.xyz + (pull - mine) * x.w, x.w));
-        if (first) {
-            vec4 y = load_point(line_args.at.position, from);
-            store_point(line_args.at.position, from, vec4(y.xyz + mine * y.w, y.w));
-        }
+        move_line_point(to, pull - mine);
+        if (first) move_line_point(from, mine);
     }
 }
 

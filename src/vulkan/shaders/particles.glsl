@@ -25,6 +25,17 @@ vec3 felt_at(uint p, vec3 acceleration)
     return is_none(uvec2(particle_args.at.steady_parts)) ? acceleration : acceleration * particle_args.at.steady_parts.at[p];
 }
 
+// The end of a substep. Leaves the remainder at zero.
+bool end_motion(uint p, inout Motion m, vec3 x, vec3 start, float w)
+{
+    Step h = substep_of(particle_args.at.frame);
+    if (is_none(uvec2(particle_args.at.remainder)))
+        return update_velocity(m, x, start, w, particle_args.at.frame.at.max_speed, h);
+    vec3 remainder = particle_args.at.remainder.at[p].xyz;
+    particle_args.at.remainder.at[p] = vec4(0.0);
+    return update_velocity_exactly(m, x, remainder, start, w, particle_args.at.frame.at.max_speed, h);
+}
+
 void report_capped(bool capped)
 {
     if (capped) atomicOr(particle_args.at.report.at[0], WEFT_REPORT_SPEED_CAPPED);
@@ -49,8 +60,8 @@ void run_velocities(uint p)
     vec4 x = load_point(particle_args.at.position, p);
     vec3 start;
     Motion m = load_motion(p, start);
-    bool capped = update_velocity(m, x.xyz, start, x.w, particle_args.at.frame.at.max_speed,
-                                  substep_of(particle_args.at.frame));
+    bool capped = end_motion(p, m, x.xyz, start, x.w);
+    if (!is_none(uvec2(particle_args.at.remainder))) particle_args.at.start.at[p] = vec4(start, m.v_dropped.x);
     store_motion(p, m);
     report_capped(capped);
 }
@@ -62,7 +73,7 @@ void run_advance(uint p)
     vec3 start;
     Motion m = load_motion(p, start);
     Step h = substep_of(particle_args.at.frame);
-    bool ended = update_velocity(m, x.xyz, start, x.w, particle_args.at.frame.at.max_speed, h);
+    bool ended = end_motion(p, m, x.xyz, start, x.w);
     start = x.xyz;
     bool begun = predict(x.xyz, m, x.w, felt_at(p, gravity_of(particle_args.at.frame)), particle_args.at.frame.at.max_speed, h);
     store_point(particle_args.at.position, p, x);
@@ -114,7 +125,14 @@ void run_average(uint p)
     }
     if (average_args.at.mean == 1u) sum = sum * (1.0 / float(end - begin));
     vec4 x = load_point(average_args.at.position, p);
-    store_point(average_args.at.position, p, vec4(x.xyz + sum, x.w));
+    if (is_none(uvec2(average_args.at.remainder))) {
+        x.xyz = x.xyz + sum;
+    } else {
+        vec3 remainder = average_args.at.remainder.at[p].xyz;
+        move_exactly(x.xyz, remainder, sum);
+        average_args.at.remainder.at[p] = vec4(remainder, 0.0);
+    }
+    store_point(average_args.at.position, p, x);
 }
 
 float coupled_moment(uint row) { return -(couple_args.at.lambda.at[row] * couple_args.at.frame.at.inv_h2); }
@@ -172,6 +190,7 @@ void run_roll_back(uint i)
     store_point(keep_args.at.position, i, vec4(good.xyz, keep_args.at.weights.at[i]));
     keep_args.at.velocity.at[i] = keep_args.at.good_velocity.at[i];
     keep_args.at.compensation.at[i] = keep_args.at.good_compensation.at[i];
+    if (!is_none(uvec2(keep_args.at.remainder))) keep_args.at.remainder.at[i] = vec4(0.0);
 }
 
 #endif

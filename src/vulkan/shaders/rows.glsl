@@ -38,6 +38,15 @@ void add_quanta(Uints sums, uint p, vec3 change)
     for (uint axis = 0u; axis < 3u; ++axis) add_to_sum(sums, p, axis, uint(int(to_quanta(change[axis]))));
 }
 
+// Whether rows compute with places relative to their first particle, which round less.
+bool keeps_remainders() { return !is_none(uvec2(row_args.at.moves)); }
+
+#define WEFT_RELATIVE_TO_FIRST(arity)                                                                          \
+    if (keeps_remainders()) {                                                                                  \
+        for (uint k = 0u; k < arity; ++k) remainder[k] = row_args.at.moves.at[p[k]].xyz;                       \
+        for (uint k = 0u; k < arity; ++k) x[k] = (place[k] - place[0]) + (remainder[k] - remainder[0]);        \
+    }
+
 #define WEFT_PROJECT_ROW(name, Name, arity, moved, lambdas)                                                    \
     Name##Row load_##name(uint r)                                                                              \
     {                                                                                                          \
@@ -49,35 +58,45 @@ void add_quanta(Uints sums, uint p, vec3 change)
     void project_row_##name(uint r)                                                                            \
     {                                                                                                          \
         uint p[arity];                                                                                         \
-        vec3 x[arity];                                                                                         \
+        vec3 x[arity], place[arity], remainder[arity];                                                         \
         float w[arity], lambda[lambdas];                                                                       \
         for (uint k = 0u; k < arity; ++k) {                                                                    \
             p[k] = row_args.at.particles.at[k * row_args.at.stride + r];                                       \
             vec4 point = load_point(row_args.at.position, p[k]);                                               \
-            x[k] = point.xyz, w[k] = point.w;                                                                  \
+            x[k] = point.xyz, place[k] = point.xyz, w[k] = point.w;                                            \
         }                                                                                                      \
+        WEFT_RELATIVE_TO_FIRST(arity)                                                                          \
         for (uint k = 0u; k < lambdas; ++k)                                                                    \
             lambda[k] = lambda_before(k, r);                                                                   \
         Step h = shifted(substep_with(row_args.at.frame, row_args.at.limits), r);                              \
         if (use_of_lambda() != WEFT_LAMBDA_ACCUMULATE) h.undone = WEFT_UNDONE_BY_FIRST_SWEEP;                  \
+        h.apart = keeps_remainders();                                                                          \
         project_##name(WEFT_PARTICLES_##arity(x), WEFT_PARTICLES_##arity(w), WEFT_LAMBDAS_##lambdas(lambda),   \
                        load_##name(r), h);                                                                     \
         if (use_of_lambda() != WEFT_LAMBDA_DISCARD)                                                            \
             for (uint k = 0u; k < lambdas; ++k) row_args.at.lambda.at[k * row_args.at.stride + r] = lambda[k]; \
-        for (uint k = 0u; k < moved; ++k) store_point(row_args.at.position, p[k], vec4(x[k], w[k]));           \
+        for (uint k = 0u; k < moved; ++k) {                                                                    \
+            if (h.apart) {                                                                                     \
+                move_exactly(place[k], remainder[k], x[k]);                                                    \
+                row_args.at.moves.at[p[k]] = vec4(remainder[k], 0.0);                                          \
+                x[k] = place[k];                                                                               \
+            }                                                                                                  \
+            store_point(row_args.at.position, p[k], vec4(x[k], w[k]));                                         \
+        }                                                                                                      \
     }
 
 // Computes the constraint's correction of its particles without moving them.
 #define WEFT_CORRECT_ROW(name, arity, lambdas)                                                                        \
     void correct_row_##name(uint r, out uint p[arity], out vec3 change[arity], out float w[arity])                    \
     {                                                                                                                 \
-        vec3 x[arity], before[arity];                                                                                 \
+        vec3 x[arity], place[arity], remainder[arity];                                                                \
         float lambda[lambdas], before_it[lambdas];                                                                    \
         for (uint k = 0u; k < arity; ++k) {                                                                           \
             p[k] = row_args.at.particles.at[k * row_args.at.stride + r];                                              \
             vec4 point = load_point(row_args.at.position, p[k]);                                                      \
-            x[k] = point.xyz, before[k] = point.xyz, w[k] = point.w;                                                  \
+            x[k] = point.xyz, place[k] = point.xyz, w[k] = point.w;                                                   \
         }                                                                                                             \
+        WEFT_RELATIVE_TO_FIRST(arity)                                                                                 \
         bool plain = is_none(uvec2(row_args.at.share));                                                               \
         for (uint k = 0u; k < lambdas; ++k) {                                                                         \
             lambda[k] = plain ? 0.0 : lambda_before(k, r);                                                            \
@@ -85,6 +104,7 @@ void add_quanta(Uints sums, uint p, vec3 change)
         }                                                                                                             \
         Step h = rigid_step(row_args.at.limits);                                                                      \
         if (!plain) h = shifted(substep_with(row_args.at.frame, row_args.at.limits), r);                              \
+        h.apart = keeps_remainders();                                                                                 \
         project_##name(WEFT_PARTICLES_##arity(x), WEFT_PARTICLES_##arity(w), WEFT_LAMBDAS_##lambdas(lambda),          \
                        load_##name(r), h);                                                                            \
         float part = plain_part(lambda[0]);                                                                           \
@@ -92,7 +112,7 @@ void add_quanta(Uints sums, uint p, vec3 change)
         if (!plain && use_of_lambda() != WEFT_LAMBDA_DISCARD)                                                         \
             for (uint k = 0u; k < lambdas; ++k)                                                                       \
                 row_args.at.lambda.at[k * row_args.at.stride + r] = before_it[k] + (lambda[k] - before_it[k]) * part; \
-        for (uint k = 0u; k < arity; ++k) change[k] = (x[k] - before[k]) * part;                                      \
+        for (uint k = 0u; k < arity; ++k) change[k] = (h.apart ? x[k] : x[k] - place[k]) * part;                      \
     }
 
 #define WEFT_PLAIN_ROW(name, arity, moved)                                                        \
@@ -136,12 +156,12 @@ void add_quanta(Uints sums, uint p, vec3 change)
         float w[arity], dropped[arity];                                                                 \
         for (uint k = 0u; k < arity; ++k) {                                                             \
             p[k] = row_args.at.particles.at[k * row_args.at.stride + r];                                \
-            vec4 point = load_point(row_args.at.position, p[k]), speed = row_args.at.velocity.at[p[k]]; \
+            vec4 point = load_point(row_args.at.position, p[k]), speed = row_args.at.moves.at[p[k]];    \
             x[k] = point.xyz, w[k] = point.w, v[k] = speed.xyz, dropped[k] = speed.w;                   \
         }                                                                                               \
         damp_##name(WEFT_PARTICLES_##arity(v), WEFT_PARTICLES_##arity(x), WEFT_PARTICLES_##arity(w),    \
                     load_##name(r), row_args.at.frame.at.viscous);                                      \
-        for (uint k = 0u; k < moved; ++k) row_args.at.velocity.at[p[k]] = vec4(v[k], dropped[k]);       \
+        for (uint k = 0u; k < moved; ++k) row_args.at.moves.at[p[k]] = vec4(v[k], dropped[k]);          \
     }
 #define WEFT_DAMP_ROW_undamped(name, arity, moved)
 
@@ -175,7 +195,7 @@ void weigh_taut_row(uint r)
     Step step = substep_of(row_args.at.frame);
     for (uint k = 0u; k < 2u; ++k) {
         p[k] = row_args.at.particles.at[k * row_args.at.stride + r];
-        moved[k] = row_args.at.velocity.at[p[k]].xyz * step.h;
+        moved[k] = row_args.at.moves.at[p[k]].xyz * step.h;
     }
     float mass = taut_mass(load_stretch(r), row_args.at.lambda.at[r]);
     for (uint k = 0u; k < 2u; ++k) {
