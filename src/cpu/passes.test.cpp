@@ -25,7 +25,14 @@ using namespace random_rows;
 constexpr float step = 1e-3f;  // s
 
 struct Fixture : RandomState {
-    ParticleView view() { return {&position[0].x, &start[0].x, &velocity[0].x, &compensation[0].x}; }
+    AlignedVector<Vec4> remainder = {};  ///< ParticleView; empty: not kept
+
+    void keep_remainders() { remainder.assign(position.size(), {1e-9f, -2e-9f, 3e-9f, 0}); }
+    ParticleView view() {
+        ParticleView view{&position[0].x, &start[0].x, &velocity[0].x, &compensation[0].x};
+        if (!remainder.empty()) view.remainder = &remainder[0].x;
+        return view;
+    }
     RowView rows() { return {table.stride, table.particles.data(), table.fields.data(), lambda.data(), {0.3f, 1.01f}}; }
 };
 
@@ -67,6 +74,7 @@ class InstructionSet : public testing::TestWithParam<const Passes*> {
         expect_same(ours.start, theirs.start, "start");
         expect_same(ours.velocity, theirs.velocity, "velocity");
         expect_same(ours.compensation, theirs.compensation, "compensation");
+        if (!from.remainder.empty()) expect_same(ours.remainder, theirs.remainder, "remainder");
         for (std::size_t r = 0; r < ours.lambda.size(); ++r) {
             if (!ours.is_row(r % ours.table.stride)) continue;
             ASSERT_TRUE(std::bit_cast<std::uint32_t>(ours.lambda[r]) ==
@@ -98,6 +106,52 @@ TEST_P(InstructionSet, projects_and_damps_every_constraint_alike) {
                 }
             });
         }
+    }
+}
+
+// A constraint alone has no second particle to be relative to if it has one particle; stitches go over several cloths.
+bool keeps_remainders(ConstraintKind kind) {
+    const RowSource source = constraint_info(kind).source;
+    return source == RowSource::model || source == RowSource::level;
+}
+
+TEST_P(InstructionSet, keeps_remainders_alike) {
+    for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
+        if (!keeps_remainders(static_cast<ConstraintKind>(kind))) continue;
+        for (unsigned seed = 0; seed < 10; ++seed) {
+            Fixture state = random_state(seed, seed % 2);
+            state.keep_remainders();
+            add_rows(state, static_cast<ConstraintKind>(kind), seed + 100, seed % 2);
+            compare(state, [&](const Passes& passes, Fixture& f) {
+                for (const Batch& batch : f.table.batches)
+                    if (!batch.serial)
+                        passes.project[kind](f.view(), f.rows(), {batch.begin, batch.padded_end()}, step,
+                                             LambdaUse::accumulate);
+                passes.velocities(f.view(), {0, padded(particle_count)}, 100, step);
+            });
+        }
+    }
+}
+
+// The remainders are far smaller than the displacements here, so both ways move particles alike.
+TEST_P(InstructionSet, moves_particles_as_much_where_it_keeps_remainders) {
+    const Passes& passes = *GetParam();
+    for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
+        if (!keeps_remainders(static_cast<ConstraintKind>(kind))) continue;
+        Fixture plain = random_state(2, false);
+        add_rows(plain, static_cast<ConstraintKind>(kind), 102, false);
+        Fixture exact = plain;
+        exact.remainder.assign(exact.position.size(), Vec4{});
+        const Batch& batch = plain.table.batches.front();
+        const auto before = plain.position;
+        for (Fixture* f : {&plain, &exact})
+            passes.project[kind](f->view(), f->rows(), {batch.begin, batch.padded_end()}, step, LambdaUse::discard);
+        double most = 0, moved = 0;
+        for (std::uint32_t p = 0; p < particle_count; ++p) {
+            most = std::max(most, double{length(plain.position[p].xyz() - exact.position[p].xyz())});
+            moved = std::max(moved, double{length(plain.position[p].xyz() - before[p].xyz())});
+        }
+        EXPECT_LT(most, 1e-3 * moved + 1e-6) << constraint_info(static_cast<ConstraintKind>(kind)).name;
     }
 }
 
@@ -146,6 +200,9 @@ TEST_P(InstructionSet, solves_lines_alike) {
         ASSERT_GE(state.table.batches.size(), 3u);
         for (const LambdaUse use : {LambdaUse::discard, LambdaUse::store, LambdaUse::accumulate}) {
             compare(state, [&](const Passes& passes, Fixture& f) { run_lines(passes, f, use); });
+            Fixture exact = state;
+            exact.keep_remainders();
+            compare(exact, [&](const Passes& passes, Fixture& f) { run_lines(passes, f, use); });
         }
         run_lines(*GetParam(), state, LambdaUse::store);
         // An enormous compliance may then meet the lambda of the other side's small one.

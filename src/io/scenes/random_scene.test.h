@@ -24,7 +24,10 @@ class RandomScene {
         fill(solver_keys, &scene.solver);
         scene.solver.substeps = 1 + below(3);
         scene.solver.iterations = 1 + below(2);
-        if (scene.solver.method == Method::pbd) scene.solver.projection = Projection::automatic;  // PBD has no lines
+        if (scene.solver.method == Method::pbd) {  // it has no lines, and nothing to keep
+            scene.solver.projection = Projection::automatic;
+            scene.solver.compensation = Compensation::automatic;
+        }
         if (maybe()) draw(scene.air.emplace());
         for (std::uint32_t i = below(3); i > 0; --i) draw(static_cast<ColliderDesc&>(scene.colliders.emplace_back()));
         for (std::uint32_t i = 1 + below(3); i > 0; --i) draw(scene.cloths.emplace_back());

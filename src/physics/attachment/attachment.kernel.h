@@ -13,5 +13,5 @@ WEFT_FN void project_attachment(inout_(vec3) x, inout_(vec3) anchor, real w, rea
     real s = select(able, -(len + alpha * lambda) / ((w + anchor_w + alpha) * len), real(0));  // delta lambda / |d|
     lambda = lambda + s * len;
     displace(x, d * (w * s), step);
-    anchor = select(anchor_w > real(0), anchor - d * (anchor_w * s), anchor);
+    displace(anchor, select(anchor_w > real(0), d * -(anchor_w * s), vec3(real(-0.0))), step);   // -0 changes no bit
 }
