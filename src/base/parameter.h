@@ -33,12 +33,13 @@ struct Parameter {
     unsigned count = 1;
     std::size_t offset = 0;  ///< of the first element in the struct that the table describes
     double min = 0, max = std::numeric_limits<float>::max();
-    bool min_excluded = false;         ///< the value must be greater than `min`
-    bool zero_too = false;             ///< 0 is valid although it is below `min`
-    std::string_view unit = {};        ///< SI; empty for a pure number
-    std::string_view above_hint = {};  ///< end of the message about a value above `max`
-    std::string_view what = {};        ///< one line of documentation
-    std::string_view choices = {};     ///< `choice` only: the names, separated by '|'
+    bool min_excluded = false;           ///< the value must be greater than `min`
+    bool zero_too = false;               ///< 0 is valid although it is below `min`
+    std::string_view unit = {};          ///< SI; empty for a pure number
+    std::string_view above_hint = {};    ///< end of the message about a value above `max`
+    std::string_view what = {};          ///< one line of documentation
+    std::string_view choices = {};       ///< `choice` only: the names, separated by '|'
+    std::string_view choice_words = {};  ///< a short line about each of them, separated by '|'; may be empty
     bool required = false;
     bool flag_too = false;  ///< `choice` only: `false` stands for the first name and `true` for the last
 };

@@ -69,7 +69,9 @@ inline constexpr Parameter material_parameters[] = {
      .what = "fraction of the area that threads cover; below 1 the cloth is sheer"},
     {.key = "weave", .kind = ParameterKind::choice, .offset = offsetof(Material, weave),
      .what = "pattern of the threads; `smooth`: none; `grain`: leather",
-     .choices = "smooth|plain|twill|satin|knit|rib|grain"},
+     .choices = "smooth|plain|twill|satin|knit|rib|grain",
+     .choice_words = "no threads|over one, under one: cotton, linen|diagonal ribs: denim|"
+                     "long floating threads: shine|loops: jersey|loops in ribs: cuffs|leather"},
     {.key = "thread_spacing", .offset = offsetof(Material, thread_spacing), .min = 0.01, .max = 1000, .unit = "mm",
      .what = "distance between threads; for `grain`, the size of a grain"},
     {.key = "weave_depth", .offset = offsetof(Material, weave_depth), .min = 0, .max = 4,

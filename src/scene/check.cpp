@@ -205,6 +205,17 @@ std::vector<std::string> names_of(const std::vector<Named>& all, const std::stri
     return names;
 }
 
+/// The parts between '|'.
+std::vector<std::string_view> split(std::string_view text) {
+    std::vector<std::string_view> parts;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('|'), text.size());
+        parts.push_back(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return parts;
+}
+
 }  // namespace
 
 std::string range_problem(const Parameter& parameter, double value, std::string_view got) {
@@ -227,13 +238,11 @@ std::string range_problem(const Parameter& parameter, double value, std::string_
 }
 
 std::vector<std::string_view> choice_names(const Parameter& parameter) {
-    std::vector<std::string_view> names;
-    for (std::string_view rest = parameter.choices; !rest.empty();) {
-        const std::size_t end = std::min(rest.find('|'), rest.size());
-        names.push_back(rest.substr(0, end));
-        rest.remove_prefix(std::min(end + 1, rest.size()));
-    }
-    return names;
+    return split(parameter.choices);
+}
+
+std::vector<std::string_view> choice_words(const Parameter& parameter) {
+    return split(parameter.choice_words);
 }
 
 void check_values(std::span<const Parameter> table, const void* base, const std::string& pointer, Problems& problems) {

@@ -22,6 +22,8 @@ std::string range_problem(const Parameter& parameter, double value, std::string_
 
 /// The names of a `choice`, in the order of its enumerators.
 std::vector<std::string_view> choice_names(const Parameter& parameter);
+/// A short line about each of them; none if they need none.
+std::vector<std::string_view> choice_words(const Parameter& parameter);
 
 /// Checks every value of a table in the struct at `base`; `pointer` is the JSON pointer of that struct.
 void check_values(std::span<const Parameter> table, const void* base, const std::string& pointer, Problems& problems);

@@ -72,16 +72,20 @@ inline constexpr Parameter solver_keys[] = {
     {.key = "method", .kind = ParameterKind::choice, .offset = offsetof(SolverDesc, method),
      .what = "`xpbd`: stiffness in SI units, independent of the substeps; `pbd`: plain position-based dynamics with "
              "the fabric's `stiffness`, for comparison",
-     .choices = "xpbd|pbd"},
+     .choices = "xpbd|pbd",
+     .choice_words = "stiffness in SI units|plain position-based dynamics, for comparison"},
     {.key = "projection", .kind = ParameterKind::choice, .offset = offsetof(SolverDesc, projection),
      .what = "`gauss-seidel`: one constraint after another, color by color; `lines`: the same, but the stretch of a "
              "whole line of edges at once; `jacobi`: all at once and averaged, converges more slowly; `auto`: "
              "`lines`, for `pbd` `gauss-seidel`",
-     .choices = "auto|lines|gauss-seidel|jacobi"},
+     .choices = "auto|lines|gauss-seidel|jacobi",
+     .choice_words = "lines, or gauss-seidel for pbd|whole lines of edges at once|one constraint after another|"
+                     "all at once, averaged; converges slowly"},
     {.key = "accumulate", .kind = ParameterKind::choice, .offset = offsetof(SolverDesc, accumulate),
      .what = "how `jacobi` sums the corrections of a particle: `gather`: as floats in a fixed order; `fixed-point`: "
              "as multiples of 1/65536 m in any order",
-     .choices = "gather|fixed-point"},
+     .choices = "gather|fixed-point",
+     .choice_words = "sums floats in a fixed order|sums multiples of 1/65536 m in any order"},
     {.key = "hierarchy", .kind = ParameterKind::flag, .offset = offsetof(SolverDesc, hierarchy),
      .what = "solve coarse levels of each cloth first: far less stretch in large cloths"},
     {.key = "substeps", .kind = ParameterKind::integer, .offset = offsetof(SolverDesc, substeps), .min = 1,
@@ -91,7 +95,8 @@ inline constexpr Parameter solver_keys[] = {
      .max = 10000, .what = "iterations over all constraints per substep; more substeps reduce the error more"},
     {.key = "compensation", .kind = ParameterKind::choice, .offset = offsetof(SolverDesc, compensation),
      .what = "keep what rounding drops from displacements by constraints: `auto`: in substeps shorter than 1/2400 s",
-     .choices = "auto|on|off"},
+     .choices = "auto|on|off",
+     .choice_words = "on in substeps shorter than 1/2400 s|keeps what rounding drops; a quarter slower|drops it"},
 };
 
 inline constexpr Parameter air_keys[] = {
@@ -110,7 +115,9 @@ inline constexpr Parameter wind_head_keys[] = {
     {.key = "kind", .kind = ParameterKind::choice, .offset = offsetof(WindHead, kind),
      .what = "`directional`: the same everywhere; `jet`: a round turbulent jet from a nozzle; `vortex`: air that turns "
              "around the source's y axis",
-     .choices = wind_choices},
+     .choices = wind_choices,
+     .choice_words = "the same everywhere|a round jet from a nozzle, as of a fan|"
+                     "turns around the y axis of the source"},
 };
 
 inline constexpr Parameter wind_keys[] = {
@@ -158,7 +165,8 @@ inline constexpr Parameter gust_keys[] = {
     {.key = "phase", .kind = ParameterKind::choice, .offset = offsetof(GustDesc, phase),
      .what = "`smooth`: neighboring triangles get the same gust; `scattered`: each triangle has its own phase and "
              "frequency",
-     .choices = "smooth|scattered"},
+     .choices = "smooth|scattered",
+     .choice_words = "neighbors get the same gust|each triangle flutters by itself"},
 };
 
 inline constexpr Parameter turbulence_keys[] = {
@@ -183,16 +191,22 @@ inline constexpr Parameter cloth_keys[] = {
     {.key = "tethers", .kind = ParameterKind::choice, .offset = offsetof(SceneCloth, tethers),
      .what = "limit each particle's distance to its pins by the geodesic distance at rest: far less stretch; "
              "`auto`: on if `hierarchy` is on, the fabric is `inextensible` and the cloth hangs by at most 16 places",
-     .choices = "auto|on|off"},
+     .choices = "auto|on|off",
+     .choice_words = "on if the cloth hangs and does not stretch|limits the distance of each particle to its pins|"
+                     "only the fabric limits the stretch"},
     {.key = "tether_slack", .offset = offsetof(SceneCloth, tether_slack), .min = 0, .max = 100,
      .what = "fraction by which a particle may exceed that distance; with `tethers`"},
     {.key = "self_collision", .kind = ParameterKind::choice, .offset = offsetof(SceneCloth, self_collision),
      .what = "contact with itself and with the other cloths that have it; `true`: `exact`; `false`: `off`",
-     .choices = "off|fast|exact", .flag_too = true},
+     .choices = "off|fast|exact",
+     .choice_words = "passes through itself|particles keep a distance; may cross for a moment|"
+                     "never passes through itself; slower", .flag_too = true},
     {.key = "tearing", .kind = ParameterKind::choice, .offset = offsetof(SceneCloth, tearing),
      .what = "whether it can part: never; where it is cut; also by itself where its load exceeds the fabric's limits; "
              "or where it is cut, and by losing triangles whose edges exceed `tear_ratio`",
-     .choices = "off|cuts|split|erode"},
+     .choices = "off|cuts|split|erode",
+     .choice_words = "never parts, cannot be cut|parts where it is cut|"
+                     "also tears by itself where the load is too high|loses triangles that are stretched too far"},
     {.key = "tear_room", .offset = offsetof(SceneCloth, tear_room), .min = 0, .max = 5,
      .what = "room for copies of particles where it parts, as a fraction of its particles; 256 more are always there; "
              "with `tearing`"},
@@ -236,7 +250,8 @@ inline constexpr Parameter grid_keys[] = {
      .min = 2, .max = 4096, .what = "particles along x and z"},
     {.key = "diagonal", .kind = ParameterKind::choice, .offset = offsetof(GridDesc, diagonal),
      .what = "diagonals of the cells: all alike, a checkerboard, or both with a particle in the middle",
-     .choices = "uniform|alternating|cross"},
+     .choices = "uniform|alternating|cross",
+     .choice_words = "all alike|a checkerboard, bends alike in all directions|both, with a particle in the middle"},
 };
 
 inline constexpr Parameter sphere_mesh_keys[] = {

@@ -1,6 +1,7 @@
 #include "editor/app/choice_words.h"
 
 #include "editor/app/property_tables.h"
+#include "scene/check.h"
 
 #include <gmock/gmock.h>
 

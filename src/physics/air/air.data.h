@@ -21,7 +21,8 @@ inline constexpr Parameter air_parameters[] = {
      .what = "lift coefficient; acts if the scene has air"},
     {.key = "lift_model", .kind = ParameterKind::choice, .offset = offsetof(AirMaterial, lift_model),
      .what = "lift grows with the `cosine` or the `sine` of the angle between flow and normal",
-     .choices = "cosine|sine"},
+     .choices = "cosine|sine",
+     .choice_words = "most lift when the air meets the cloth head-on|most lift when the air passes along the cloth"},
 };
 
 }  // namespace weft

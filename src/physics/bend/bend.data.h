@@ -38,13 +38,16 @@ inline constexpr Parameter bend_parameters[] = {
      .min = -180, .max = 180, .unit = "°", .what = "dihedral angle at rest: \"mesh\": as in the mesh, or degrees"},
     {.key = "bend_edges", .kind = ParameterKind::choice, .offset = offsetof(BendMaterial, edges),
      .what = "`all` edges, or `no-diagonals`: all but the diagonals of flat rectangles; only for `dihedral` and `distance`",
-     .choices = "all|no-diagonals"},
+     .choices = "all|no-diagonals",
+     .choice_words = "bends at every edge|not at the diagonals of flat rectangles"},
     {.key = "bend_model", .kind = ParameterKind::choice, .offset = offsetof(BendMaterial, model),
      .what = "`moment`: the angle across each edge, with moments that act together in each triangle: bends as `bend` says on "
              "any mesh; `dihedral`: each edge alone, up to a fifth too soft or too stiff; `plate`: the curvature of each "
              "triangle; `distance`: springs between the tips of neighboring triangles, a fifth of the cost, too soft for "
              "slight folds",
-     .choices = "moment|dihedral|plate|distance"},
+     .choices = "moment|dihedral|plate|distance",
+     .choice_words = "bends as the fabric says, on any mesh|each edge alone; up to a fifth off|"
+                     "curvature of each triangle|springs between neighboring triangles; fast"},
 };
 
 }  // namespace weft

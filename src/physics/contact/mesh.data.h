@@ -19,7 +19,9 @@ inline constexpr Parameter mesh_parameters[] = {
     {.key = "contact", .kind = ParameterKind::choice, .offset = offsetof(SolidMeshDesc, contact),
      .what = "what cloth with exact self-collision meets: the solid or, from either side, the triangles; `auto`: the "
              "triangles of a mesh with holes",
-     .choices = "auto|solid|surface"},
+     .choices = "auto|solid|surface",
+     .choice_words = "the triangles of a mesh with holes, else the solid|the inside is closed to cloth|"
+                     "the triangles, from either side"},
 };
 
 inline std::array<float, 4> shape_numbers(const SolidMeshDesc&) {
