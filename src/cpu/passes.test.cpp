@@ -1,6 +1,6 @@
 // Every instruction set against one lane, constraint by constraint, on random and degenerate input: equal to the bit.
 #include "cpu/passes.h"
-#include "cpu/sample_shapes.test.h"
+#include "cpu/instruction_sets.test.h"
 
 #include "solver/model/faces_around.h"
 
@@ -20,25 +20,9 @@
 namespace weft::cpu {
 namespace {
 
-using namespace random_rows;
+using namespace instruction_sets;
 
 constexpr float step = 1e-3f;  // s
-
-struct Fixture : RandomState {
-    AlignedVector<Vec4> remainder = {};  ///< ParticleView; empty: not kept
-
-    void keep_remainders() { remainder.assign(position.size(), {1e-9f, -2e-9f, 3e-9f, 0}); }
-    ParticleView view() {
-        ParticleView view{&position[0].x, &start[0].x, &velocity[0].x, &compensation[0].x};
-        if (!remainder.empty()) view.remainder = &remainder[0].x;
-        return view;
-    }
-    RowView rows() { return {table.stride, table.particles.data(), table.fields.data(), lambda.data(), {0.3f, 1.01f}}; }
-};
-
-Fixture random_state(unsigned seed, bool degenerate) {
-    return {random_points(seed, degenerate)};
-}
 
 void run_lines(const Passes& passes, Fixture& f, LambdaUse use) {
     AlignedVector<float> scratch(line_scratch_floats(longest_line), NAN);  // its previous content does not matter
@@ -47,43 +31,6 @@ void run_lines(const Passes& passes, Fixture& f, LambdaUse use) {
         passes.lines(f.view(), f.rows(), blocks, step, use, scratch.data());
     }
 }
-
-void expect_same(const AlignedVector<Vec4>& a, const AlignedVector<Vec4>& b, std::string_view what) {
-    for (std::uint32_t p = 0; p < particle_count; ++p) {
-        const auto bits = [](const Vec4& v) { return std::bit_cast<std::array<std::uint32_t, 4>>(v); };
-        // The bits of a NaN depend on the machine.
-        const auto same = [&](float x, float y, int k) {
-            return bits(a[p])[k] == bits(b[p])[k] || (std::isnan(x) && std::isnan(y));
-        };
-        ASSERT_TRUE(same(a[p].x, b[p].x, 0) && same(a[p].y, b[p].y, 1) && same(a[p].z, b[p].z, 2) &&
-                    same(a[p].w, b[p].w, 3))
-            << what << ", particle " << p << ": " << a[p].x << ' ' << a[p].y << ' ' << a[p].z << " against " << b[p].x
-            << ' ' << b[p].y << ' ' << b[p].z;
-    }
-}
-
-class InstructionSet : public testing::TestWithParam<const Passes*> {
-  protected:
-    /// Runs `f` on the tested table and on the scalar one, from the same state, and compares.
-    template <class F>
-    void compare(const Fixture& from, F&& f) {
-        Fixture ours = from, theirs = from;
-        f(*GetParam(), ours);
-        f(scalar_passes(), theirs);
-        expect_same(ours.position, theirs.position, "position");
-        expect_same(ours.start, theirs.start, "start");
-        expect_same(ours.velocity, theirs.velocity, "velocity");
-        expect_same(ours.compensation, theirs.compensation, "compensation");
-        if (!from.remainder.empty()) expect_same(ours.remainder, theirs.remainder, "remainder");
-        for (std::size_t r = 0; r < ours.lambda.size(); ++r) {
-            if (!ours.is_row(r % ours.table.stride)) continue;
-            ASSERT_TRUE(std::bit_cast<std::uint32_t>(ours.lambda[r]) ==
-                            std::bit_cast<std::uint32_t>(theirs.lambda[r]) ||
-                        (std::isnan(ours.lambda[r]) && std::isnan(theirs.lambda[r])))
-                << "lambda of row " << r % ours.table.stride;
-        }
-    }
-};
 
 TEST_P(InstructionSet, projects_and_damps_every_constraint_alike) {
     for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
@@ -468,138 +415,6 @@ TEST_P(InstructionSet, carries_nodes_to_particles_alike_whatever_their_numbers_t
     expect_same(spread(*GetParam(), long_numbers), one_by_one, "32 bits");
 }
 
-TEST_P(InstructionSet, touches_every_shape_alike) {
-    const Pose here{rotation_from_degrees({10, 20, 30}), {0.1f, 0.2f, 0.3f}};
-    const Pose there{rotation_from_degrees({11, 19, 30}), {0.1f, 0.19f, 0.3f}};
-    for (std::uint32_t shape = 0; shape < shape_kind_count; ++shape) {
-        for (unsigned seed = 0; seed < 20; ++seed) {
-            const Fixture state = random_state(seed, seed % 2);
-            compare(state, [&](const Passes& passes, Fixture& f) {
-                AlignedVector<Vec4> sums(f.position.size());
-                ContactView view{.kind = static_cast<int>(shape),
-                                 .numbers = {0.6f, 0.64f, 0.48f, 0.1f},
-                                 .data = sample_blocks(shape),
-                                 .steepness = 1,
-                                 .roundness = 0,
-                                 .layer_distance = 1,
-                                 .now = here,
-                                 .before = there,
-                                 .static_friction = 0.4f,
-                                 .kinetic_friction = 0.3f,
-                                 .half_thickness = 0.001f,
-                                 .depenetration = 0.0008f,
-                                 .sums = &sums[0].x,
-                                 .first_iteration = true};
-                const Range all{0, padded(particle_count)};
-                passes.contact[shape](f.view(), view, all);
-                view.first_iteration = false;
-                passes.contact[shape](f.view(), view, all);
-                view.sums = nullptr;
-                passes.contact[shape](f.view(), view, all);
-            });
-        }
-    }
-}
-
-// In the frame of the shape: at its center, on its faces, edges and corners, very close to them and very far away.
-// Without -0: a particle that nothing touches may become +0 if another lane of its group is touched.
-TEST_P(InstructionSet, touches_every_shape_alike_at_degenerate_places) {
-    const float subnormal = 1e-40f;
-    for (std::uint32_t shape = 0; shape < shape_kind_count; ++shape) {
-        for (const float size : {0.5f, 1e-6f, 1e6f, 1e-30f}) {
-            const float places[] = {0,        size,      -size,      size / 2, std::nextafter(size, 0.0f),
-                                    2 * size, subnormal, -subnormal, 1e-20f,   1e6f,
-                                    -1e15f,   0.6f};
-            for (unsigned seed = 0; seed < 6; ++seed) {
-                Fixture state = random_state(seed, true);
-                std::mt19937 random(seed);
-                const auto place = [&] { return places[random() % std::size(places)]; };
-                for (std::size_t p = 0; p < state.position.size(); ++p) {
-                    Vec4& x = state.position[p];
-                    x.x = place(), x.y = place(), x.z = place();
-                    if (p % 2) continue;
-                    Vec4& start = state.start[p];
-                    start.x = place(), start.y = place(), start.z = place();
-                }
-                compare(state, [&](const Passes& passes, Fixture& f) {
-                    AlignedVector<Vec4> sums(f.position.size());
-                    // Thickness makes the distances of points outside count too.
-                    const ContactView view{.kind = static_cast<int>(shape),
-                                           .numbers = {size, seed % 2 ? size : size / 2, size, size / 4},
-                                           .data = sample_blocks(shape),
-                                           .steepness = 1,
-                                           .roundness = 0,
-                                           .layer_distance = 1,
-                                           .now = {},
-                                           .before = {},
-                                           .static_friction = 0.4f,
-                                           .kinetic_friction = 0.3f,
-                                           .half_thickness = seed % 3 ? 2 * size : 1e7f,
-                                           .depenetration = 0.0008f,
-                                           .sums = &sums[0].x,
-                                           .first_iteration = true};
-                    passes.contact[shape](f.view(), view, {0, padded(particle_count)});
-                });
-                if (HasFatalFailure()) FAIL() << "shape " << shape << ", size " << size << ", seed " << seed;
-            }
-        }
-    }
-}
-
-TEST_P(InstructionSet, keeps_the_same_account_of_contacts_and_moves_nothing_else_by_it) {
-    const Range all{0, padded(particle_count)};
-    for (std::uint32_t shape = 0; shape < shape_kind_count; ++shape) {
-        for (unsigned seed = 0; seed < 10; ++seed) {
-            const Fixture state = random_state(seed, seed % 2);
-            AlignedVector<Vec4> sums(state.position.size());
-            ContactView view{.kind = static_cast<int>(shape),
-                             .numbers = {0.6f, 0.8f, 0.3f, 0.1f},
-                             .data = sample_blocks(shape),
-                             .steepness = 1,
-                             .roundness = 0,
-                             .layer_distance = 1,
-                             .now = {rotation_from_degrees({10, 20, 30}), {0.1f, 0.2f, 0.3f}},
-                             .before = {rotation_from_degrees({11, 19, 30}), {0.1f, 0.19f, 0.3f}},
-                             .static_friction = 0.4f,
-                             .kinetic_friction = 0.3f,
-                             .half_thickness = 0.001f,
-                             .depenetration = 0.0008f,
-                             .sums = &sums[0].x,
-                             .first_iteration = true};
-            const auto traced = [&](const Passes& passes, Fixture& f, AlignedVector<Vec4>& moved,
-                                    AlignedVector<Vec4>& turned) {
-                moved.assign(f.position.size(), {});
-                turned = moved;
-                view.moved = &moved[0].x;
-                view.turned = &turned[0].x;
-                for (const bool first : {true, false}) {
-                    view.first_iteration = first;
-                    passes.contact_traced[shape](f.view(), view, all);
-                }
-            };
-            Fixture plain = state, ours = state, theirs = state;
-            for (const bool first : {true, false}) {
-                view.first_iteration = first;
-                GetParam()->contact[shape](plain.view(), view, all);
-            }
-            AlignedVector<Vec4> moved, turned, scalar_moved, scalar_turned;
-            traced(*GetParam(), ours, moved, turned);
-            traced(scalar_passes(), theirs, scalar_moved, scalar_turned);
-            expect_same(ours.position, plain.position, "position");
-            expect_same(moved, scalar_moved, "moved");
-            expect_same(turned, scalar_turned, "turned");
-            if (seed % 2) continue;
-            std::uint32_t touched = 0;
-            for (std::uint32_t p = 0; p < particle_count; ++p) {
-                const Vec3 by = ours.position[p].xyz() - state.position[p].xyz();
-                EXPECT_LT(length(moved[p].xyz() - by), 1e-5f);
-                touched += by != Vec3();
-            }
-            EXPECT_GT(touched, 0u);
-        }
-    }
-}
-
 TEST_P(InstructionSet, notices_what_is_not_finite) {
     AlignedVector<float> data(64, 1.0f);
     EXPECT_TRUE(GetParam()->all_finite(data.data(), 0, 64));
@@ -613,7 +428,7 @@ TEST_P(InstructionSet, notices_what_is_not_finite) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Isa, InstructionSet, testing::ValuesIn(available_passes().begin(), available_passes().end()),
-                         [](const auto& tested) { return std::string(tested.param->isa); });
+                         name_of);
 
 }  // namespace
 }  // namespace weft::cpu
