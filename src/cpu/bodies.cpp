@@ -93,7 +93,7 @@ void Bodies::run_alone(const WorldPlan& plan) {
 }
 
 void Bodies::predict() {
-    const scalar::Step step{h_, 1 / h_, 1 / h_ / h_, 0, 1, 0, 0, 0, false};
+    const scalar::Step step = scalar::step_without_limits(h_, 1 / h_, 1 / h_ / h_);
     for (BodyInStep& body : bodies_) {
         const BodyDesc& desc = body.of->body->desc;
         body.before = body.now;

@@ -52,7 +52,7 @@ void turn_inertia(BodyInStep& body) {
 }
 
 void push(BodyInStep& body, const scalar::BodyPush& by, float h) {
-    push_body(body.motion, body.inverse_mass, body.inertia, by, {h, 1 / h, 1 / h / h, 0, 1, 0, 0, 0, false});
+    push_body(body.motion, body.inverse_mass, body.inertia, by, scalar::step_without_limits(h, 1 / h, 1 / h / h));
     place(body);
 }
 
@@ -61,7 +61,7 @@ void BodyContacts::begin_frame(const StepInput& input, std::span<BodyInStep> bod
     input_ = &input;
     bodies_ = bodies;
     body_of_ = body_of;
-    step_ = {h, 1 / h, 1 / h / h, 0, 1, 0, 0, 0, false};
+    step_ = scalar::step_without_limits(h, 1 / h, 1 / h / h);
     pairs_.clear();
     rows_.clear();
 }

@@ -90,7 +90,7 @@ bool ClothRun::run(const IslandPass& island_pass, std::uint32_t substep, Worker 
 // Makes particles near pins heavier until `release`. Most packets of particles have none.
 void ClothRun::steady(Range mine) const {
     const float h = numbers_.h;
-    const scalar::Step step{h, 1 / h, 1 / h / h, 0, 1, 0, 0, 0, false};
+    const scalar::Step step = scalar::step_without_limits(h, 1 / h, 1 / h / h);
     const std::span<const float> weights = cloth_.weights();
     for (std::uint32_t begin = mine.begin; begin < mine.end; begin += lane_padding) {
         const std::span steadiness(model().steadiness.data() + begin, lane_padding);

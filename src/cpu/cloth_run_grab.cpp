@@ -32,7 +32,7 @@ void ClothRun::for_each_grab(Visit&& visit) const {
 
 void ClothRun::run_grabs(const Pass& pass, std::uint32_t substep) const {
     const float h = numbers_.h, per_substep = 1.0f / static_cast<float>(plan_.substeps);
-    const scalar::Step step{h, 1.0f / h, 1.0f / h / h, 0, 1, 0, 0, 0, false};
+    const scalar::Step step = scalar::step_without_limits(h, 1.0f / h, 1.0f / h / h);
     const Particles now = cloth_.now();
     const std::span<const float> weights = cloth_.weights();
     const auto row_of = [&](const GrabStep& grab) {

@@ -1,8 +1,9 @@
 // The loops, for the lanes of the including namespace. Included once per instruction set.
 
 WEFT_FN Step make_step(float h, const Limits& limits = {}) {
-    return {real(h), real(1.0f / h), real(1.0f / h / h), real(limits.tension), real(limits.allowed), real(0.0f), real(0.0f),
-            real(0.0f), false};
+    Step step = step_without_limits(real(h), real(1.0f / h), real(1.0f / h / h));
+    step.tension = real(limits.tension), step.allowed = real(limits.allowed);
+    return step;
 }
 
 WEFT_FN Motion load_motion(const ParticleView& p, std::size_t at, vec3& start) {
@@ -258,8 +259,9 @@ inline void project_pass(const ParticleView& p, const RowView& rows, Range range
 
 // A step that makes every constraint rigid: 1/h² is 0, which removes all compliance.
 WEFT_FN Step rigid_step(const Limits& limits) {
-    return {real(1e3f),           real(1e-3f), real(0.0f), real(limits.tension),
-            real(limits.allowed), real(0.0f),  real(0.0f), real(0.0f), false};
+    Step step = step_without_limits(real(1e3f), real(1e-3f), real(0.0f));
+    step.tension = real(limits.tension), step.allowed = real(limits.allowed);
+    return step;
 }
 
 // Without compliance λ has the opposite sign of C: λ < 0 selects the stiffness for C > 0.

@@ -51,7 +51,7 @@ void expect_gradient(std::span<vec3> points, std::span<const vec3> gradients, C&
 }
 
 inline reference::Step make_step(double h) {
-    return {h, 1 / h, 1 / (h * h), 0, 1, 0, 0, 0, false};
+    return reference::step_without_limits(h, 1 / h, 1 / (h * h));
 }
 
 }  // namespace weft::testing_kernels

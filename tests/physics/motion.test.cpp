@@ -18,7 +18,7 @@ TEST(Oscillator, has_the_period_and_decay_of_implicit_euler) {
         const double omega = std::sqrt(1 / 0.001);
         vec3 anchor(0.0), x(1.5, 0, 0);
         Motion m{vec3(0.0), vec3(0.0), vec3(0.0)};
-        const Step step{h, 1 / h, 1 / (h * h), 0, 1, 0, 0, 0, false};
+        const Step step = step_without_limits(h, 1 / h, 1 / (h * h));
         std::vector<double> crossings;
         double before = 0.5, peak = 0, peak_time = 0;
         for (int i = 1; crossings.size() < 21; ++i) {

@@ -163,7 +163,7 @@ TEST(Bend, survives_degenerate_input) {
                 V p[4] = {points[0], points[1], points[2], points[3]};
                 float lambda = 0;
                 scalar::project_bend(p[0], p[1], p[2], p[3], w, w, w, w, lambda, {0.5f, compliance},
-                                     {1e-3f, 1e3f, 1e6f, 0, 1, 0, 0, 0, false});
+                                     scalar::step_without_limits(1e-3f, 1e3f, 1e6f));
                 for (const V& q : p) EXPECT_TRUE(std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z));
                 EXPECT_TRUE(std::isfinite(lambda));
             }

@@ -111,7 +111,7 @@ TEST(GrabKernel, leaves_pinned_corners) {
 }
 
 TEST(GrabKernel, survives_degenerate_input) {
-    const scalar::Step step{1e-3f, 1e3f, 1e6f, 0, 1, 0, 0, 0, false};
+    const scalar::Step step = scalar::step_without_limits(1e-3f, 1e3f, 1e6f);
     for (const float w : {0.0f, 1.0f, 1e10f}) {
         for (const float max_force : {1e-30f, 1.0f, 1e6f}) {
             for (const float away : {0.0f, 1e-12f, 1e6f}) {

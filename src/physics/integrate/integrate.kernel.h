@@ -12,6 +12,22 @@ struct Step {
     bool apart;   //      projections return displacements in place of places, for move_exactly()
 };
 
+// A step in which limits do not give way and rest angles do not move.
+WEFT_FN Step step_without_limits(real h, real inv_h, real inv_h2)
+{
+    Step step;
+    step.h = h;
+    step.inv_h = inv_h;
+    step.inv_h2 = inv_h2;
+    step.tension = real(0);
+    step.allowed = real(1);
+    step.shift_c = real(0);
+    step.shift_d = real(0);
+    step.undone = real(0);
+    step.apart = false;
+    return step;
+}
+
 // Moves a particle by a projection.
 WEFT_FN void displace(inout_(vec3) x, vec3 by, Step step)
 {

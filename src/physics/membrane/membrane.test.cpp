@@ -165,7 +165,8 @@ TEST(Membrane, survives_degenerate_input) {
                     V p[3] = {points[0], points[1], points[2]};
                     float lambda[3] = {};
                     scalar::project_membrane(p[0], p[1], p[2], w, w, w, lambda[0], lambda[1], lambda[2],
-                                             {1, 0, 2, l, l, l, l, l, l}, {h, 1 / h, 1 / h / h, 0, 1, 0, 0, 0, false});
+                                             {1, 0, 2, l, l, l, l, l, l},
+                                             scalar::step_without_limits(h, 1 / h, 1 / h / h));
                     for (const V& q : p) EXPECT_TRUE(std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z));
                     for (const float x : lambda) EXPECT_TRUE(std::isfinite(x));
                     if (w == 0) {
@@ -203,7 +204,7 @@ TEST(Membrane, of_a_needle_is_stable) {
         for (int n = 0; n < 20; ++n) {
             float lambda[3] = {};
             scalar::project_membrane(p[0], p[1], p[2], w, w, w, lambda[0], lambda[1], lambda[2], row,
-                                     {h, 1 / h, 1 / h / h, 0, 1, 0, 0, 0, false});
+                                     scalar::step_without_limits(h, 1 / h, 1 / h / h));
         }
         for (int k = 0; k < 3; ++k) {
             const scalar::vec3 way = p[k] - before[k];

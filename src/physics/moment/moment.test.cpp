@@ -266,7 +266,7 @@ TEST(Moment, projects_a_hinge_with_its_rest_angle_shifted) {
         const float edge = pinned ? 0.0f : 2.0f, c = number(0, 1e-3), d = number(0, 1e-3), rest = number(-1, 1),
                     shift = number(-1, 1);
         float lambda = 0, expected = 0;
-        scalar::Step step{1e-2f, 1e2f, 1e4f, 0, 1, 0, 0, 0, false};
+        scalar::Step step = scalar::step_without_limits(1e-2f, 1e2f, 1e4f);
         scalar::project_bend(x[0], x[1], x[2], x[3], edge, edge, 0, 1, expected,
                              {rest + (pinned ? shift : shift - 0.25f + 0.25f), pinned ? d : c + d}, step);
         step.shift_c = pinned ? 5 : shift - 0.25f;

@@ -201,7 +201,7 @@ TEST(Plate, survives_degenerate_input) {
                     float lambda[3] = {};
                     scalar::project_plate(p[0], p[1], p[2], p[3], p[4], p[5], w, w, w, w, w, w, lambda[0], lambda[1],
                                           lambda[2], {0.5f, 0, -3, l, l, l, l, l, l},
-                                          {h, 1 / h, 1 / h / h, 0, 1, 0, 0, 0, false});
+                                          scalar::step_without_limits(h, 1 / h, 1 / h / h));
                     for (const V& q : p) EXPECT_TRUE(std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z));
                     for (const float x : lambda) EXPECT_TRUE(std::isfinite(x));
                 }

@@ -190,7 +190,7 @@ TEST(StretchLine, survives_degenerate_input) {
                 for (int k = 0; k < 4; ++k) {
                     const scalar::vec3 a(gap * static_cast<float>(k), 1, 1), b(gap * static_cast<float>(k + 1), 1, 1);
                     const auto now = eliminate_stretch(before, a, b, w, 0.0f, 0.0f, {1, compliance, compliance},
-                                                       Step{1e-3f, 1e3f, 1e6f, 0, 1, 0, 0, 0, false});
+                                                       step_without_limits(1e-3f, 1e3f, 1e6f));
                     change = substitute_stretch(now, change);
                     EXPECT_TRUE(std::isfinite(before.factor) && std::isfinite(change) && std::isfinite(now.n.x))
                         << w << ' ' << gap << ' ' << compliance;

@@ -33,7 +33,7 @@ TEST(Tether, survives_degenerate_input) {
                 scalar::vec3 x(d, 0, 0), anchor(0.0f);
                 float lambda = 0;
                 scalar::project_tether(x, anchor, w, 0.0f, lambda, {radius, 0},
-                                       {1e-3f, 1e3f, 1e6f, 0, 1, 0, 0, 0, false});
+                                       scalar::step_without_limits(1e-3f, 1e3f, 1e6f));
                 EXPECT_TRUE(std::isfinite(x.x)) << w << ' ' << radius << ' ' << d;
                 if (w == 0) {
                     EXPECT_EQ(x.x, d);

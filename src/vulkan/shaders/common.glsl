@@ -72,20 +72,40 @@ uint take_sum(Uints sums, uint p, uint axis)
 }
 #endif
 
+// Moves a particle from `x`. `remainder`: what rounding drops, per particle; 0: not kept.
+void move_point(Vec4s position, Vec4s remainder, uint p, vec4 x, vec3 by)
+{
+    if (is_none(uvec2(remainder))) {
+        x.xyz = x.xyz + by;
+    } else {
+        vec3 kept = remainder.at[p].xyz;
+        move_exactly(x.xyz, kept, by);
+        remainder.at[p] = vec4(kept, 0.0);
+    }
+    store_point(position, p, x);
+}
+
 vec3 gravity_of(FrameRef frame) { return vec3(frame.at.gravity_x, frame.at.gravity_y, frame.at.gravity_z); }
 
 Step substep_of(FrameRef frame)
 {
-    return Step(frame.at.h, frame.at.inv_h, frame.at.inv_h2, 0.0, 1.0, 0.0, 0.0, 0.0, false);
+    return step_without_limits(frame.at.h, frame.at.inv_h, frame.at.inv_h2);
 }
 
 Step substep_with(FrameRef frame, LimitsRef limits)
 {
-    return Step(frame.at.h, frame.at.inv_h, frame.at.inv_h2, limits.at.tension, limits.at.allowed, 0.0, 0.0, 0.0, false);
+    Step step = substep_of(frame);
+    step.tension = limits.at.tension, step.allowed = limits.at.allowed;
+    return step;
 }
 
 // A step in which every constraint is rigid: compliance times inv_h2 is 0.
-Step rigid_step(LimitsRef limits) { return Step(1e3, 1e-3, 0.0, limits.at.tension, limits.at.allowed, 0.0, 0.0, 0.0, false); }
+Step rigid_step(LimitsRef limits)
+{
+    Step step = step_without_limits(1e3, 1e-3, 0.0);
+    step.tension = limits.at.tension, step.allowed = limits.at.allowed;
+    return step;
+}
 
 // Tests the bits, because a driver may assume that no number is a NaN.
 bool is_finite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u; }

@@ -46,15 +46,7 @@ void run_prolongation(uint i)
     vec4 x = load_point(level_args.at.position, i);
     // The weights of the levels may be older than a pin, so a pinned particle may have a displacement.
     float moves = x.w > 0.0 ? 1.0 : 0.0;
-    vec3 by = interpolated(i) * moves;
-    if (is_none(uvec2(level_args.at.remainder))) {
-        x.xyz = x.xyz + by;
-    } else {
-        vec3 remainder = level_args.at.remainder.at[i].xyz;
-        move_exactly(x.xyz, remainder, by);
-        level_args.at.remainder.at[i] = vec4(remainder, 0.0);
-    }
-    store_point(level_args.at.position, i, x);
+    move_point(level_args.at.position, level_args.at.remainder, i, x, interpolated(i) * moves);
 }
 
 #endif

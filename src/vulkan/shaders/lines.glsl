@@ -110,18 +110,10 @@ void solve_line(LineRound round, uint begin, uint length)
     }
 }
 
-void move_line_point(uint p, vec3 by)
+void pull_line_point(uint p, vec3 by)
 {
     vec4 x = load_point(line_args.at.position, p);
-    by = by * x.w;
-    if (is_none(uvec2(line_args.at.remainder))) {
-        x.xyz = x.xyz + by;
-    } else {
-        vec3 remainder = line_args.at.remainder.at[p].xyz;
-        move_exactly(x.xyz, remainder, by);
-        line_args.at.remainder.at[p] = vec4(remainder, 0.0);
-    }
-    store_point(line_args.at.position, p, x);
+    move_point(line_args.at.position, line_args.at.remainder, p, x, by * x.w);
 }
 
 // Each row moves its second particle. The first row of a line also moves its first particle.
@@ -137,8 +129,8 @@ void end_row(LineRound round, uint r, bool first, bool last)
     if (!last) pull = line_args.at.scratch.at[r + WEFT_LANE_PADDING].xyz * line_number(round, r + WEFT_LANE_PADDING).x;
     // Padding connects the end of a line to itself. The last real row moves that particle.
     if (from != to) {
-        move_line_point(to, pull - mine);
-        if (first) move_line_point(from, mine);
+        pull_line_point(to, pull - mine);
+        if (first) pull_line_point(from, mine);
     }
 }
 

@@ -125,14 +125,7 @@ void run_average(uint p)
     }
     if (average_args.at.mean == 1u) sum = sum * (1.0 / float(end - begin));
     vec4 x = load_point(average_args.at.position, p);
-    if (is_none(uvec2(average_args.at.remainder))) {
-        x.xyz = x.xyz + sum;
-    } else {
-        vec3 remainder = average_args.at.remainder.at[p].xyz;
-        move_exactly(x.xyz, remainder, sum);
-        average_args.at.remainder.at[p] = vec4(remainder, 0.0);
-    }
-    store_point(average_args.at.position, p, x);
+    move_point(average_args.at.position, average_args.at.remainder, p, x, sum);
 }
 
 float coupled_moment(uint row) { return -(couple_args.at.lambda.at[row] * couple_args.at.frame.at.inv_h2); }

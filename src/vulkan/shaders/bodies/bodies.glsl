@@ -22,7 +22,7 @@ layout(push_constant) uniform Push { BodiesArgs args; };
 
 uint me() { return gl_LocalInvocationID.x; }
 
-Step substep_of_bodies() { return Step(WEFT_BODIES.h, WEFT_BODIES.inv_h, WEFT_BODIES.inv_h2, 0.0, 1.0, 0.0, 0.0, 0.0, false); }
+Step substep_of_bodies() { return step_without_limits(WEFT_BODIES.h, WEFT_BODIES.inv_h, WEFT_BODIES.inv_h2); }
 vec3 gravity_of_bodies() { return vec3(WEFT_BODIES.gravity_x, WEFT_BODIES.gravity_y, WEFT_BODIES.gravity_z); }
 
 BodyMotion motion_of(uint body)
