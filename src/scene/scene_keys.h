@@ -325,12 +325,19 @@ inline constexpr Parameter color_pin_keys[] = {
      .what = "largest difference from `color`, per channel; with `color`"},
 };
 
+// Where a cut or a seam runs.
+inline constexpr Parameter path_points = {
+    .key = "points", .kind = ParameterKind::list,
+    .what = "a polyline on the cloth at the start, in world space after the transform, at least two points in m"};
+inline constexpr Parameter path_plane = {
+    .key = "plane", .kind = ParameterKind::object,
+    .what = "a plane through the cloth at the start; in place of `points`"};
+
 inline constexpr Parameter cut_keys[] = {
     {.key = "time", .offset = offsetof(CutDesc, time), .min = 0, .max = 1e6, .unit = "s",
      .what = "the cloth is cut before the first frame that begins at this time or later"},
-    {.key = "points", .kind = ParameterKind::list,
-     .what = "a polyline on the cloth at the start, in world space after the transform, at least two points in m"},
-    {.key = "plane", .kind = ParameterKind::object, .what = "a plane through the cloth at the start; in place of `points`"},
+    path_points,
+    path_plane,
 };
 
 inline constexpr Parameter seam_keys[] = {
@@ -338,9 +345,8 @@ inline constexpr Parameter seam_keys[] = {
      .what = "tension across the seam that it carries", .required = true},
     {.key = "tear_energy", .offset = offsetof(SeamDesc, tear_energy), .min = 0, .max = 1e9, .unit = "J/m",
      .what = "energy per length of seam; sets the limit at the end of the open part; 0: `strength` holds there too"},
-    {.key = "points", .kind = ParameterKind::list,
-     .what = "a polyline on the cloth at the start, in world space after the transform, at least two points in m"},
-    {.key = "plane", .kind = ParameterKind::object, .what = "a plane through the cloth at the start; in place of `points`"},
+    path_points,
+    path_plane,
 };
 
 inline constexpr Parameter resistance_vertex_keys[] = {
