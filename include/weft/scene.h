@@ -32,7 +32,7 @@ enum class Accumulate { gather, fixed_point };
 
 /// Whether projections keep what rounding drops from the displacements of particles, and add it to the next substep. In
 /// short substeps that is much of the displacements: cloth sags too far, and loses momentum. `automatic`: in substeps
-/// shorter than 1/2400 s.
+/// shorter than 1/2600 s.
 enum class Compensation { automatic, on, off };
 
 /// All options of the solver. Scene files, Options::solver and the command line use the keys that

@@ -94,9 +94,9 @@ inline constexpr Parameter solver_keys[] = {
     {.key = "iterations", .kind = ParameterKind::integer, .offset = offsetof(SolverDesc, iterations), .min = 1,
      .max = 10000, .what = "iterations over all constraints per substep; more substeps reduce the error more"},
     {.key = "compensation", .kind = ParameterKind::choice, .offset = offsetof(SolverDesc, compensation),
-     .what = "keep what rounding drops from displacements by constraints: `auto`: in substeps shorter than 1/2400 s",
+     .what = "keep what rounding drops from displacements by constraints: `auto`: in substeps shorter than 1/2600 s",
      .choices = "auto|on|off",
-     .choice_words = "on in substeps shorter than 1/2400 s|keeps what rounding drops; a quarter slower|drops it"},
+     .choice_words = "on in substeps shorter than 1/2600 s|keeps what rounding drops; a quarter slower|drops it"},
 };
 
 inline constexpr Parameter air_keys[] = {

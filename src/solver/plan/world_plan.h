@@ -21,8 +21,10 @@ constexpr Projection resolve(Projection projection, Method method) {
     return method == Method::xpbd ? Projection::lines : Projection::gauss_seidel;
 }
 
-/// s: in shorter substeps, rounding drops a noticeable part of what projections move particles by.
-inline constexpr double short_substep = 1.0 / 2400;
+/// s: in shorter substeps, rounding drops a noticeable part of what projections move particles by. Frames whose lengths
+/// scatter about one display's do not cross this bound back and forth: 40 substeps at 60 Hz and 20 at 120 Hz are 1/2400
+/// s, 20 at 144 Hz are 1/2880 s.
+inline constexpr double short_substep = 1.0 / 2600;
 
 /// Whether projections keep what rounding drops, in frames of `dt` seconds.
 constexpr bool compensates(const SolverDesc& solver, double dt) {
