@@ -31,10 +31,14 @@ TEST_F(Cli, validate_fails_where_weft_misses_a_reference) {
     EXPECT_THAT(outcome.out, HasSubstr("  why: "));
 }
 
-// The whole case takes half a minute or more.
+// The whole case takes half a minute or more. `timeout` sends a signal twice, so each is sent twice.
 TEST_F(Cli, validate_ended_early_keeps_what_it_has_measured) {
-    const auto outcome = weft("validate --backend cpu --case cantilever --json results.json",
-                              "timeout -k 60 --preserve-status -s TERM 2");
+    write("when_measured",
+          "\"$@\" & program=$!\n"
+          "until grep -q expected stdout.txt || ! kill -0 $program; do sleep 0.05; done\n"
+          "kill -s TERM $program; sleep 0.02; kill -s TERM $program; wait $program\n");
+    const auto outcome =
+        weft("validate --backend cpu --case cantilever --json results.json", "timeout -k 9 120 sh ./when_measured");
     EXPECT_EQ(outcome.status, 1) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("cantilever: interrupted"));
     const Json results = Json::parse(read_file(folder_ / "results.json"));

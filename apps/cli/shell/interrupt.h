@@ -5,7 +5,8 @@
 
 namespace weft::cli {
 
-/// While an object exists, SIGINT and SIGTERM request an end after the current frame; a second signal ends at once.
+/// While an object exists, SIGINT and SIGTERM request an end after the current frame. A second signal ends at once,
+/// unless it follows within half a second of the first.
 class EndOnSignal {
   public:
     EndOnSignal();
