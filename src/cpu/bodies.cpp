@@ -1,6 +1,7 @@
 #include "cpu/bodies.h"
 
 #include "base/flush_subnormals.h"
+#include "cpu/moving_ball.h"
 #include "solver/plan/body_numbers.h"
 
 #include <algorithm>
@@ -56,6 +57,7 @@ void Bodies::prepare(const WorldStep& step, unsigned workers) {
         body.inertia = scalar::inertia_of(mass);
         body.inverse_mass = 1 / mass.mass;
         body.radius = radius_about(mass.center, body.of->bounds);
+        body.ball_radius = cpu::ball_radius(*body.of);
         place(body);
         turn_inertia(body);
     }

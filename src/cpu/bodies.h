@@ -36,6 +36,10 @@ class Bodies {
     }
     const Pose& now(std::uint32_t body) const { return bodies_[body].now; }        ///< in the substep
     const Pose& before(std::uint32_t body) const { return bodies_[body].before; }  ///< at its start
+    /// m: ball_radius() of its collider.
+    float ball_radius(std::uint32_t body) const { return bodies_[body].ball_radius; }
+    std::uint32_t count() const { return static_cast<std::uint32_t>(bodies_.size()); }
+    std::uint32_t collider_of(std::uint32_t body) const { return bodies_[body].collider; }
     /// Where the body was when the contacts of its faces were found.
     const Pose& found(std::uint32_t body) const { return bodies_[body].found; }
     /// Where the body was when the points that are attached to it were placed.

@@ -19,13 +19,14 @@ struct BodyInStep {
     scalar::BodyMotion motion;
     scalar::BodyInertia inertia;
     float inverse_mass = 0;
-    float radius = 0;      ///< m: of a ball around the center of mass that holds the shape
-    Pose found;            ///< Bodies::found()
-    Pose placed;           ///< Bodies::placed()
-    Pose now, before;      ///< in the substep, and at its start
-    scalar::vec3 v, rate;  ///< m/s and rad/s at the start of the substep, before contact
-    Mat3 inverse_inertia;  ///< in world axes, at the start of the contacts of the substep
-    float contacts = 0;    ///< of cloth, that share the body in this substep
+    float radius = 0;       ///< m: of a ball around the center of mass that holds the shape
+    float ball_radius = 0;  ///< ball_radius() of the collider
+    Pose found;             ///< Bodies::found()
+    Pose placed;            ///< Bodies::placed()
+    Pose now, before;       ///< in the substep, and at its start
+    scalar::vec3 v, rate;   ///< m/s and rad/s at the start of the substep, before contact
+    Mat3 inverse_inertia;   ///< in world axes, at the start of the contacts of the substep
+    float contacts = 0;     ///< of cloth, that share the body in this substep
 };
 
 /// Computes BodyInStep::now from the motion.

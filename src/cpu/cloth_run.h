@@ -46,9 +46,15 @@ class ClothRun {
     bool is_body(const NearCollider& near) const { return bodies_.body_of(near.collider) != none; }
     /// Without what run_contacts() adds.
     ContactView contact_view(const NearCollider& near, std::uint32_t substep) const;
+    /// In the substep.
+    MovingBall ball_of(std::uint32_t collider, std::uint32_t substep) const;
+    void place_balls(ColliderPart& part, std::uint32_t substep) const;
+    /// m
+    float widest_to_touch(std::uint32_t collider) const;
     void mark_near_faces(const ColliderRun& run, const NearCollider& near, ContactView& view) const;
     template <class Collect, class Visit>
-    void for_each_near_face(unsigned worker, Collect&& collect, Visit&& visit) const;
+    void for_each_near_face(const Pass& pass, std::uint32_t substep, Worker worker, Collect&& collect,
+                            Visit&& visit) const;
     void run_face_contact(const Pass& pass, std::uint32_t substep, Worker worker) const;
     void move_faces(bool last, Worker worker) const;
     void log_contact(std::uint32_t particle, std::uint32_t collider, Vec3 by, Vec3 lever) const;

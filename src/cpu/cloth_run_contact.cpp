@@ -1,5 +1,6 @@
 // Contact of a cloth with colliders, worker by worker.
 #include "cpu/cloth_run.h"
+#include "cpu/moving_ball.h"
 #include "physics/scalar.h"
 
 #include <algorithm>
@@ -7,6 +8,9 @@
 
 namespace weft::cpu {
 namespace {
+
+// Among so many colliders most are near few of the faces that are near one of them.
+constexpr std::uint32_t least_colliders_to_narrow = 4;
 
 scalar::ContactBody body_between(const Pose& before, const Pose& now) {
     const auto of = [](Vec3 v) { return scalar::vec3(v.x, v.y, v.z); };
@@ -80,28 +84,41 @@ void ClothRun::run_body_contacts(const Pass& pass, std::uint32_t substep, Range 
         part.pressed.clear();
     }
     if (counts || !pass.first_iteration) cloth_.face_contacts.clear_near({mine.begin, mine.end});
+    place_balls(part, substep);
+    NearBalls balls{.balls = part.balls.data(),
+                    .half_thickness = numbers_.half_thickness,
+                    .nearest = nearest_of_faces(numbers_.half_thickness)};
     for (const ColliderRun& run : part.runs()) {
         const bool presses = supports(part.near(run));
+        const Range range{run.begin, run.end};
+        std::uint8_t* const touched = part.touched(run);
+        if (!counts && pass.first_iteration) std::fill_n(touched, run.count, std::uint8_t{0});
+        balls.numbers = part.bodies(run), balls.count = run.count;
+        balls.always = counts ? nullptr : touched;
+        balls.inside = presses ? numbers_.depenetration : 0;
+        balls.faces = !counts && cloth_.face_contacts.near_faces(run);
         if (presses && counts) {
             find_supports(run, part.near(run), substep);
             part.pressed.push_back({run.begin, run.end});
         }
-        for (const NearCollider& near : part.near(run)) {
-            if (!is_body(near)) continue;
+        const auto next = [&](std::uint32_t first) { return passes_.first_near(view_, balls, range, first); };
+        for (std::uint32_t k = next(0); k < run.count; k = next(k + 1)) {
+            const NearCollider& near = part.near(run)[k];
             ContactView view = contact_view(near, substep);
             const BodyView body = bodies_.view(bodies_.body_of(near.collider), worker.number);
             const auto kind = static_cast<std::uint32_t>(view.kind);
             if (presses) view.support = cloth_.support_view();
             if (counts) {
-                passes_.count_touches[kind](view_, view, body, {run.begin, run.end});
+                passes_.count_touches[kind](view_, view, body, range);
                 continue;
             }
-            view.first_iteration = pass.first_iteration;
+            view.first_iteration = touched[k] == 0;
+            touched[k] = 1;
             view.sums = part.sums(near);
             view.moved = traces ? part.moved(near) : nullptr;
             view.turned = traces ? part.turned(near) : nullptr;
             mark_near_faces(run, near, view);
-            passes_.touch_body[kind](view_, view, body, {run.begin, run.end});
+            passes_.touch_body[kind](view_, view, body, range);
         }
     }
 }
@@ -111,8 +128,28 @@ void ClothRun::run_body_contacts(const Pass& pass, std::uint32_t substep, Range 
 void ClothRun::mark_near_faces(const ColliderRun& run, const NearCollider& near, ContactView& view) const {
     view.near_faces = cloth_.face_contacts.near_faces(run);
     view.nearest = nearest_of_faces(numbers_.half_thickness);
-    const bool touches_faces = faces_touch(model(), input_.colliders[near.collider]);
-    view.widest = touches_faces ? widest_face(model()) : -static_cast<float>(far_away);
+    view.widest = widest_to_touch(near.collider);
+}
+
+float ClothRun::widest_to_touch(std::uint32_t collider) const {
+    const bool touches_faces = faces_touch(model(), input_.colliders[collider]);
+    return touches_faces ? widest_face(model()) : -static_cast<float>(far_away);
+}
+
+MovingBall ClothRun::ball_of(std::uint32_t number, std::uint32_t substep) const {
+    const Collider& collider = input_.colliders[number];
+    const std::uint32_t body = bodies_.body_of(number);
+    if (body != none)
+        return moving_ball(collider, bodies_.ball_radius(body), bodies_.before(body), bodies_.now(body),
+                           widest_to_touch(number));
+    return moving_ball(collider, ball_radius(collider), input_.places->pose(number, substep),
+                       input_.places->pose(number, substep + 1), widest_to_touch(number));
+}
+
+void ClothRun::place_balls(ColliderPart& part, std::uint32_t substep) const {
+    part.balls.clear();
+    for (std::uint32_t body = 0; body < bodies_.count(); ++body)
+        part.balls.push_back(ball_of(bodies_.collider_of(body), substep));
 }
 
 ContactView ClothRun::contact_view(const NearCollider& near, std::uint32_t substep) const {
@@ -140,14 +177,18 @@ ContactView ClothRun::contact_view(const NearCollider& near, std::uint32_t subst
 // Calls collect(run) for runs near the same colliders, then visit(near) for each collider that their faces may touch,
 // and so on. Many faces at a time leave few lanes empty.
 template <class Collect, class Visit>
-void ClothRun::for_each_near_face(unsigned worker, Collect&& collect, Visit&& visit) const {
+void ClothRun::for_each_near_face(const Pass& pass, std::uint32_t substep, Worker worker, Collect&& collect,
+                                  Visit&& visit) const {
     if (input_.colliders.empty()) return;
-    const ColliderPart& part = cloth_.near_colliders.part(worker);
-    const auto touched = [&](const ColliderRun& run) {
-        return part.near(run) | std::views::filter([this](const NearCollider& near) {
-                   return faces_touch(model(), input_.colliders[near.collider]);
-               });
+    ColliderPart& part = cloth_.near_colliders.part(worker.number);
+    FaceContacts& contacts = cloth_.face_contacts;
+    place_balls(part, substep);
+    const float nearest = pass.kind == PassKind::find_faces ? nearest_of_faces(numbers_.half_thickness) : 0;
+    const auto touches = [&](const NearCollider& near) {
+        const std::uint32_t body = bodies_.body_of(near.collider);
+        return body == none ? faces_touch(model(), input_.colliders[near.collider]) : part.balls[body].widest > 0;
     };
+    const auto touched = [&](const ColliderRun& run) { return part.near(run) | std::views::filter(touches); };
     const auto alike = [&](const ColliderRun& a, const ColliderRun& b) {
         auto of_a = touched(a), of_b = touched(b);
         return std::ranges::equal(of_a, of_b, {}, &NearCollider::collider, &NearCollider::collider);
@@ -155,8 +196,15 @@ void ClothRun::for_each_near_face(unsigned worker, Collect&& collect, Visit&& vi
     const ColliderRun* first = nullptr;  // of those collected
     const auto visit_collected = [&] {
         if (!first) return;
-        for (const NearCollider& near : touched(*first)) visit(near);
-        cloth_.face_contacts.drop_collected(worker);
+        const bool narrows = first->count >= least_colliders_to_narrow;
+        for (const NearCollider& near : touched(*first)) {
+            const std::uint32_t body = bodies_.body_of(near.collider);
+            const auto may_touch = [&](const MovingBall& ball) {
+                return contacts.narrow(passes_, worker.number, view_, *model().faces_by_tile, ball, nearest);
+            };
+            if (!narrows || may_touch(body == none ? ball_of(near.collider, substep) : part.balls[body])) visit(near);
+        }
+        contacts.drop_collected(worker.number);
         first = nullptr;
     };
     for (const ColliderRun& run : part.runs()) {
@@ -176,7 +224,7 @@ void ClothRun::run_face_contact(const Pass& pass, std::uint32_t substep, Worker 
         case PassKind::find_faces:
             contacts.begin(worker.number);
             for_each_near_face(
-                worker.number, [&](const ColliderRun& run) { contacts.collect(worker.number, faces, run); },
+                pass, substep, worker, [&](const ColliderRun& run) { contacts.collect(worker.number, faces, run); },
                 [&](const NearCollider& near) {
                     const std::uint32_t body = bodies_.body_of(near.collider);
                     const bool moved = body != none && bodies_.feels_cloth(body);
@@ -195,7 +243,8 @@ void ClothRun::run_face_contact(const Pass& pass, std::uint32_t substep, Worker 
         case PassKind::hold_faces:
             if (!contacts.any_swept()) break;
             for_each_near_face(
-                worker.number, [&](const ColliderRun& run) { contacts.collect_swept(worker.number, faces, run); },
+                pass, substep, worker,
+                [&](const ColliderRun& run) { contacts.collect_swept(worker.number, faces, run); },
                 [&](const NearCollider& near) {
                     contacts.hold(passes_, worker.number, view_, faces, near.collider, contact_view(near, substep),
                                   nearest, pass.batch > 0);

@@ -42,6 +42,8 @@ void ColliderPart::reserve(std::uint32_t tiles, std::uint32_t colliders, bool ke
     for (auto* runs : {&runs_, &last_runs_}) runs->reserve(tiles);
     pressed.reserve(tiles);
     for (auto* near : {&near_, &last_near_}) near->reserve(listed);
+    for (auto* touched : {&touched_, &last_touched_}) touched->reserve(listed);
+    near_bodies_.reserve(listed);
     if (keeps_sums || traces) scratch_.reserve(sums);
     if (keeps_sums) sums_.reserve(sums);
     if (traces) moved_.reserve(sums), turned_.reserve(sums);
@@ -53,7 +55,7 @@ void ColliderPart::begin_frame(Share mine, bool surfaces) {
     boxes_.assign((mine.end - mine.begin + tile_size - 1) / tile_size, {});
     lists_.colliders.clear();
     lists_.begin.assign(boxes_.size() + 1, 0);
-    runs_.clear(), near_.clear();
+    runs_.clear(), near_.clear(), near_bodies_.clear(), touched_.clear();
     sums_.clear(), moved_.clear(), turned_.clear();
 }
 
@@ -65,12 +67,21 @@ void ColliderPart::cover(const Passes& passes, const ParticleView& particles, co
     if (outside == tiles() && !bodies_left) return;
     search(passes, particles, places, bodies, reach, outside);
     bodies_serial_ = bodies.reach_serial();
-    std::swap(runs_, last_runs_), std::swap(near_, last_near_);
+    std::swap(runs_, last_runs_), std::swap(near_, last_near_), std::swap(touched_, last_touched_);
     join_tiles();
-    if (keeps_sums_) carry_over(last_runs_, last_near_, sums_, scratch_);
+    number_bodies(bodies);
+    if (keeps_sums_) carry_over(last_runs_, last_near_, last_touched_, sums_, scratch_);
+    // Sums that were not valid are zero now.
+    touched_.assign(near_.size(), 1);
     if (!traces_) return;
-    carry_over(last_runs_, last_near_, moved_, scratch_);
-    carry_over(last_runs_, last_near_, turned_, scratch_);
+    last_touched_.assign(last_near_.size(), 1);
+    carry_over(last_runs_, last_near_, last_touched_, moved_, scratch_);
+    carry_over(last_runs_, last_near_, last_touched_, turned_, scratch_);
+}
+
+void ColliderPart::number_bodies(const Bodies& bodies) {
+    near_bodies_.clear();
+    for (const NearCollider& near : near_) near_bodies_.push_back(bodies.body_of(near.collider));
 }
 
 // Where the particles are expected to be in the rest of the frame.
@@ -142,7 +153,8 @@ void ColliderPart::join_tiles() {
 
 // Brings the sums of the runs before to their new places. Tiles never lose a collider during a frame.
 void ColliderPart::carry_over(std::span<const ColliderRun> runs, std::span<const NearCollider> near,
-                              AlignedVector<Vec4>& sums, AlignedVector<Vec4>& scratch) const {
+                              std::span<const std::uint8_t> valid, AlignedVector<Vec4>& sums,
+                              AlignedVector<Vec4>& scratch) const {
     std::swap(sums, scratch);
     sums.assign(sum_count_, Vec4{});
     auto to = runs_.begin();
@@ -151,6 +163,7 @@ void ColliderPart::carry_over(std::span<const ColliderRun> runs, std::span<const
             while (to->end <= p) ++to;
             const std::uint32_t end = std::min(from.end, to->end);
             for (std::uint32_t k = 0; k < from.count; ++k) {
+                if (!valid[from.first + k]) continue;
                 const NearCollider& old = near[from.first + k];
                 const std::span<const NearCollider> now = this->near(*to);
                 const auto place = std::ranges::lower_bound(now, old.collider, {}, &NearCollider::collider);

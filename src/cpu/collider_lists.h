@@ -53,6 +53,11 @@ class ColliderPart {
     std::span<const NearCollider> near(const ColliderRun& run) const {
         return std::span(near_).subspan(run.first, run.count);
     }
+    /// Numbers of the bodies among them; `none` for others.
+    const std::uint32_t* bodies(const ColliderRun& run) const { return near_bodies_.data() + run.first; }
+    /// Whether each of them has been pushed on in the substep, so that its sums are valid. True for colliders that are
+    /// not bodies.
+    std::uint8_t* touched(const ColliderRun& run) { return touched_.data() + run.first; }
     /// Blocks of four per particle of the run: ContactSum. Null without sums.
     float* sums(const NearCollider& near) { return sums_.empty() ? nullptr : &sums_[near.sums].x; }
     /// Blocks of four per particle of the run: ContactTrace. Null without traces.
@@ -67,6 +72,9 @@ class ColliderPart {
 
     bool has(std::uint32_t particle) const { return particle >= mine_.begin && particle < mine_.end; }
     void trace(std::uint32_t particle, std::uint32_t collider, Vec3 by, Vec3 lever);
+
+    /// By body, in the pass.
+    std::vector<MovingBall> balls;
 
     /// Particles that have a Support in the substep, if bodies may press them on colliders.
     std::vector<Range> pressed;
@@ -85,8 +93,10 @@ class ColliderPart {
     void search(const Passes& passes, const ParticleView& particles, const ColliderPlaces& places, const Bodies& bodies,
                 const TileReach& reach, std::uint32_t outside);
     void join_tiles();
-    void carry_over(std::span<const ColliderRun> runs, std::span<const NearCollider> near, AlignedVector<Vec4>& sums,
-                    AlignedVector<Vec4>& scratch) const;
+    void number_bodies(const Bodies& bodies);
+    /// `valid`: of `near`.
+    void carry_over(std::span<const ColliderRun> runs, std::span<const NearCollider> near,
+                    std::span<const std::uint8_t> valid, AlignedVector<Vec4>& sums, AlignedVector<Vec4>& scratch) const;
 
     Share mine_{};
     std::uint64_t bodies_serial_ = 0;  ///< Bodies::reach_serial() at the last search
@@ -96,6 +106,8 @@ class ColliderPart {
     std::vector<std::uint32_t> found_;
     std::vector<ColliderRun> runs_, last_runs_;
     std::vector<NearCollider> near_, last_near_;
+    std::vector<std::uint32_t> near_bodies_;            ///< by place in near_
+    std::vector<std::uint8_t> touched_, last_touched_;  ///< likewise; of last_near_
     std::size_t sum_count_ = 0;
     AlignedVector<Vec4> sums_, moved_, turned_, scratch_;
 };

@@ -301,13 +301,16 @@ struct LaneFaces {
     FacePoint center;
 };
 
+WEFT_FN void load_corner_numbers(const FaceView& faces, const std::uint32_t* items, std::uint32_t (&to)[3][16]) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t lane = 0; lane < lane_count; ++lane) to[k][lane] = faces.corners[k * faces.stride + items[lane]];
+    }
+}
+
 template <class Shape>
 WEFT_FN void load_faces(const ParticleView& p, const FaceView& faces, const std::uint32_t* items,
                         const ContactBody& body, const Solid& solid, LaneFaces& to) {
-    for (std::size_t k = 0; k < 3; ++k) {
-        for (std::size_t lane = 0; lane < lane_count; ++lane)
-            to.corners[k][lane] = faces.corners[k * faces.stride + items[lane]];
-    }
+    load_corner_numbers(faces, items, to.corners);
     to.x = load_corners(p.position, to.corners), to.start = load_corners(p.start, to.corners);
     to.local = to_body(body, to.x), to.local_at_start = to_body_at_start(body, to.start);
     to.center.weights = center_weights();

@@ -53,7 +53,10 @@ void FaceContacts::prepare(std::uint32_t particles, std::uint32_t faces, std::ui
     if (parts_.size() < workers) parts_.resize(workers);
     if (sums_.size() < particles) sums_.resize(particles), holds_.resize(particles);
     for (Part& part : parts_) {
-        if (part.items.size() < faces + lane_padding) part.items.resize(faces + lane_padding);
+        if (part.items.size() < faces + lane_padding) {
+            part.items.resize(faces + lane_padding), part.narrowed.resize(faces + lane_padding);
+            part.measures.resize(numbers_per_face * padded(faces + lane_padding));
+        }
         part.pushed.reserve(particles), part.held.reserve(particles);
         part.groups.reserve(2 * std::max<std::size_t>(part.groups.size(), colliders));
         // find() asks for room for all faces of a run.
@@ -139,6 +142,7 @@ void FaceContacts::clear_near(Range particles) {
 void FaceContacts::collect(Part& part, const std::uint8_t* marks, const FacesByTile& faces, const ColliderRun& run) {
     const Range range = faces_of(faces, run);
     const std::uint32_t *const a = faces.corners.data(), *const b = a + faces.stride, *const c = b + faces.stride;
+    part.is_narrowed = part.is_measured = false;
     std::uint32_t count = part.item_count;
     for (std::uint32_t f = range.begin; f < range.end; ++f) {
         part.items[count] = f;
@@ -161,8 +165,25 @@ FaceView FaceContacts::view(const Part& part, const FacesByTile& faces, float ne
     return {.corners = faces.corners.data(),
             .stride = faces.stride,
             .nearest = nearest,
-            .items = part.items.data(),
-            .count = part.item_count};
+            .items = part.is_narrowed ? part.narrowed.data() : part.items.data(),
+            .count = part.is_narrowed ? part.narrowed_count : part.item_count};
+}
+
+bool FaceContacts::narrow(const Passes& passes, unsigned worker, const ParticleView& particles,
+                          const FacesByTile& faces, const MovingBall& ball, float nearest) {
+    Part& part = parts_[worker];
+    if (part.item_count == 0) return false;
+    part.is_narrowed = false;
+    const FaceView all = view(part, faces, nearest);
+    const FaceMeasures measures{part.measures.data(), part.measures.size() / numbers_per_face};
+    if (!part.is_measured) passes.measure_faces(particles, all, measures);
+    part.is_measured = true;
+    part.narrowed_count = passes.near_faces(all, measures, ball, part.narrowed.data());
+    part.is_narrowed = true;
+    if (part.narrowed_count == 0) return false;
+    // Lanes beyond the last one read a valid face.
+    std::fill_n(part.narrowed.data() + part.narrowed_count, lane_padding, part.narrowed[0]);
+    return true;
 }
 
 std::size_t FaceContacts::find(const Passes& passes, unsigned worker, const ParticleView& particles,

@@ -34,8 +34,12 @@ class FaceContacts {
     void begin(unsigned worker);
     /// Collects the faces that may touch of a run of particles, for calls of find().
     void collect(unsigned worker, const FacesByTile& faces, const ColliderRun& run);
+    /// Leaves to the next call of find() or hold() only those of the collected faces that may touch the collider in the
+    /// ball. Returns whether there are any.
+    bool narrow(const Passes& passes, unsigned worker, const ParticleView& particles, const FacesByTile& faces,
+                const MovingBall& ball, float nearest);
     /// Ends the calls for the collected faces.
-    void drop_collected(unsigned worker) { parts_[worker].item_count = 0; }
+    void drop_collected(unsigned worker) { parts_[worker].drop(); }
     /// Appends the contacts of the collected faces with a collider.
     /// Returns how many.
     std::size_t find(const Passes& passes, unsigned worker, const ParticleView& particles, const FacesByTile& faces,
@@ -77,9 +81,15 @@ class FaceContacts {
         AlignedVector<std::uint32_t> corners;
         std::vector<Group> groups;
         std::vector<std::uint32_t> pushed, held;
-        std::vector<std::uint32_t> items;  ///< faces to look at
+        std::vector<std::uint32_t> items;  ///< faces that are collected
         std::uint32_t item_count = 0;
+        std::vector<std::uint32_t> narrowed;  ///< those of narrow(), if is_narrowed
+        std::uint32_t narrowed_count = 0;
+        bool is_narrowed = false, is_measured = false;
+        AlignedVector<float> measures;  ///< of `items`, if is_measured
         bool any_of_bodies = false;
+
+        void drop() { item_count = 0, is_narrowed = is_measured = false; }
     };
 
     static void collect(Part& part, const std::uint8_t* marks, const FacesByTile& faces, const ColliderRun& run);

@@ -108,6 +108,28 @@ struct BodyView {
     bool moved;  ///< it takes part of the way; otherwise `sums` only counts
 };
 
+/// A ball that holds a collider, and how the collider moves in a substep. What contact with the collider would find is
+/// near the ball.
+struct MovingBall {
+    Vec3 center;      ///< m, at the end of the substep
+    float radius;     ///< m; may be infinite
+    Vec3 way;         ///< m, of the center
+    float turn;       ///< m: how far the rotation moves what was at 1 m from the center at the start
+    float steepness;  ///< of the shape
+    float widest;     ///< ContactView::widest
+};
+
+/// Bodies that may be near a range of particles.
+struct NearBalls {
+    const MovingBall* balls;                 ///< by body
+    float half_thickness, nearest;           ///< as in ContactView
+    const std::uint32_t* numbers = nullptr;  ///< of the bodies; `none`: not a body
+    const std::uint8_t* always = nullptr;    ///< in the order of `numbers`: whether it counts as near; null: none does
+    std::uint32_t count = 0;
+    float inside = 0;    ///< m: how far a support may push a particle toward the body
+    bool faces = false;  ///< whether what may touch the faces of particles counts as near
+};
+
 /// Triangles in the order of FacesByTile, and what decides about their contact with a collider.
 struct FaceView {
     const std::uint32_t* corners;  ///< [corner · stride + triangle]
@@ -119,6 +141,14 @@ struct FaceView {
     void (*hold)(const FaceView&, std::uint32_t particle, std::uint32_t part) = nullptr;
     void* holds = nullptr;
 };
+
+/// Where triangles are and how they move, per item of a FaceView.
+struct FaceMeasures {
+    float* numbers;  ///< [k · stride + item], m: x, y, z of the middle; radius around it; x, y, z of the middle's way;
+                     ///< the most that a corner's way differs from it
+    std::size_t stride;
+};
+inline constexpr std::size_t numbers_per_face = 8;
 
 /// Contacts of faces with colliders: blocks of four floats per contact (FaceRow in face.kernel.h). Arrays must have
 /// room for all that are appended, and lane_padding more.
@@ -271,10 +301,17 @@ struct Passes {
     /// Counts the particles that touch a body.
     std::array<void (*)(const ParticleView&, const ContactView&, const BodyView&, Range), shape_kind_count>
         count_touches;
+    /// The first of the bodies from `first` on that may touch a particle of the range or a triangle of it; the number
+    /// of bodies if there is none.
+    std::uint32_t (*first_near)(const ParticleView&, const NearBalls&, Range, std::uint32_t first);
     /// Lets the collider support the particles that touch it.
     std::array<void (*)(const ParticleView&, const ContactView&, Range), shape_kind_count> find_support;
     /// Like `contact`, but the body takes its share: adds to its sums.
     std::array<void (*)(const ParticleView&, const ContactView&, const BodyView&, Range), shape_kind_count> touch_body;
+    void (*measure_faces)(const ParticleView&, const FaceView&, const FaceMeasures&);
+    /// Writes those of the items that may touch the collider in the ball. `to` has room for lane_padding more than all.
+    /// Returns how many.
+    std::uint32_t (*near_faces)(const FaceView&, const FaceMeasures&, const MovingBall&, std::uint32_t* to);
     /// Appends the contacts of triangles with a collider.
     std::array<void (*)(const ParticleView&, const ContactView&, const FaceView&, FaceRows&), shape_kind_count>
         find_faces;

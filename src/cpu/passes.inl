@@ -470,6 +470,7 @@ inline void take_taut_pass(const ParticleView& p, float* taut, Range range) {
 WEFT_FN vec3 spread(Vec3 v) { return vec3(real(v.x), real(v.y), real(v.z)); }
 
 #include "cpu/contact.inl"
+#include "cpu/near.inl"
 
 #include "cpu/wind.inl"
 
@@ -561,6 +562,7 @@ inline constexpr Passes make_passes(std::string_view isa) {
 #include "physics/contact/shapes.def"
         },
 #undef WEFT_SHAPE
+        .first_near = first_near_pass,
 #define WEFT_SHAPE(name, Name) find_support_pass<Name##Shape>,
         .find_support = {
 #include "physics/contact/shapes.def"
@@ -571,6 +573,8 @@ inline constexpr Passes make_passes(std::string_view isa) {
 #include "physics/contact/shapes.def"
         },
 #undef WEFT_SHAPE
+        .measure_faces = measure_faces_pass,
+        .near_faces = near_faces_pass,
 #define WEFT_SHAPE(name, Name) find_faces_pass<Name##Shape>,
         .find_faces = {
 #include "physics/contact/shapes.def"
