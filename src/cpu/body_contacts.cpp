@@ -1,5 +1,6 @@
 #include "cpu/body_contacts.h"
 
+#include "solver/plan/body_numbers.h"
 #include "solver/plan/frame_numbers.h"
 
 #include <algorithm>
@@ -100,7 +101,10 @@ void BodyContacts::find_pairs(std::span<const Bounds> reach) {
     pairs_.clear();
     const auto add = [&](std::uint32_t features, std::uint32_t shape) {
         const BodyFeatures& of = input_->colliders[features].features;
-        if (!of.points.empty() || !of.edges.empty()) pairs_.push_back({features, shape});
+        if (of.points.empty() && of.edges.empty()) return;
+        if (scalar::features_meet(kind_of_features(input_->colliders[features]),
+                                  kind_of_features(input_->colliders[shape]), features < shape))
+            pairs_.push_back({features, shape});
     };
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const std::uint32_t mine = bodies_[i].collider;

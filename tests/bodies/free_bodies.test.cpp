@@ -153,6 +153,37 @@ TEST(BodyContact, a_fast_ball_does_not_pass_a_thin_wall) {
     EXPECT_LT(world.body(ball).state.place.x, 0);
 }
 
+// What flies hits a ball at rest: the ball gets what the other loses, whichever comes first.
+TEST(BodyContact, a_ball_meets_each_shape_in_either_order) {
+    const auto capsule = [](const BodyDesc& desc) {
+        Collider made = make_ball(0.1f, 1, {-0.5f, 0.02f, 0}, desc);
+        const Collider shape = make_collider({.name = "capsule", .shape = CapsuleDesc{0.1f, 0.1f}});
+        made.shape = shape.shape, made.numbers = shape.numbers;
+        made.bounds = shape.bounds, made.roundness = shape.roundness;
+        made.features = features_of(CapsuleDesc{0.1f, 0.1f}, nullptr);
+        return made;
+    };
+    const BodyDesc flies{.velocity = {1, 0, 0}, .spin = {0, 0, 90}, .restitution = 1};
+    const Collider others[] = {make_ball(0.1f, 1, {-0.5f, 0, 0}, flies),
+                               make_box({0.1f, 0.1f, 0.1f}, 1, {-0.5f, 0.02f, 0}, flies), capsule(flies)};
+    for (const Collider& other : others) {
+        for (const bool ball_first : {false, true}) {
+            World world = make_world({.gravity = {}});
+            const Collider ball = make_ball(0.1f, 1, {});
+            const ColliderId first = world.add(ball_first ? ball : other),
+                             second = world.add(ball_first ? other : ball);
+            world.frame();
+            const Momentum start = momentum_of(world);
+            run(world, 1);
+            const Momentum now = momentum_of(world);
+            EXPECT_GT(world.body(ball_first ? first : second).state.velocity.x, 0.5) << other.name << ball_first;
+            EXPECT_LT(world.body(ball_first ? second : first).state.velocity.x, 0.5) << other.name << ball_first;
+            EXPECT_LT(distance_between(now.linear, start.linear), 1e-4) << other.name << ball_first;
+            EXPECT_LE(now.energy, start.energy * 1.0001) << other.name << ball_first;
+        }
+    }
+}
+
 TEST(BodyContact, keeps_momentum) {
     World world = make_world({.gravity = {}});
     const ColliderId a = world.add(make_ball(0.1f, 2, {0, 0, 0}, {.velocity = {1, 0, 0}, .spin = {0, 0, 300}}));

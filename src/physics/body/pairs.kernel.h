@@ -6,6 +6,19 @@
 // Tangent steps along an edge.
 #define WEFT_BODY_EDGE_STEPS 6
 
+// What the features of a shape are: one ball, all of its surface, or less than that.
+#define WEFT_FEATURES_BALL 0
+#define WEFT_FEATURES_ALL 1
+#define WEFT_FEATURES_SOME 2
+
+// Whether these features have to meet that shape. Where the ball of one side meets all of the surface of the other, the
+// other need not meet the ball. `first`: of two balls the first one meets the second.
+WEFT_FN bool features_meet(int features, int shape, bool first)
+{
+    if (shape != WEFT_FEATURES_BALL || features == WEFT_FEATURES_SOME) return true;
+    return features == WEFT_FEATURES_BALL && first;
+}
+
 // A body or a collider in a substep: its poses are those of a ContactBody.
 struct BodySide {
     ContactBody poses;

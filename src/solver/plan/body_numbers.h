@@ -2,6 +2,8 @@
 #pragma once
 
 #include "solver/plan/world_plan.h"
+#include "solver/state/body_kernels.h"
+#include "solver/world/collider.h"
 
 #include <weft/bounds.h>
 #include <weft/vector.h>
@@ -20,6 +22,13 @@ inline constexpr std::uint32_t sweeps_after_particles = 3, sweeps_after_faces = 
 constexpr std::uint32_t sweeps_of_move(std::uint32_t batch) {
     if (batch == move_after_pulls || batch == move_in_rounds) return 0;
     return batch == move_after_particles ? sweeps_after_particles : sweeps_after_faces;
+}
+
+/// WEFT_FEATURES_… of the collider. A mesh has the features of its hull.
+inline int kind_of_features(const Collider& collider) {
+    const BodyFeatures& of = collider.features;
+    if (collider.shape == ShapeKind::mesh) return WEFT_FEATURES_SOME;
+    return of.points.size() == 1 && of.edges.empty() ? WEFT_FEATURES_BALL : WEFT_FEATURES_ALL;
 }
 
 /// m: of a ball around the center of mass that holds the box.

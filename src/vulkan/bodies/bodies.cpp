@@ -17,7 +17,7 @@ namespace weft::vulkan {
 namespace {
 
 // Sizes of the GLSL layout.
-static_assert(sizeof(BodyIn) == 304 && sizeof(FeaturesIn) == 16 && sizeof(BodyRowIn) == 96 && sizeof(BodiesIn) == 184 &&
+static_assert(sizeof(BodyIn) == 304 && sizeof(FeaturesIn) == 32 && sizeof(BodyRowIn) == 96 && sizeof(BodiesIn) == 184 &&
               sizeof(BodiesArgs) == 24);
 
 Vec4 with(Vec3 v, float w) {
@@ -66,7 +66,9 @@ struct FeatureArrays {
             features.push_back({.first_point = static_cast<std::uint32_t>(points.size()),
                                 .points = static_cast<std::uint32_t>(of.points.size()),
                                 .first_edge = static_cast<std::uint32_t>(edges.size() / 2),
-                                .edges = static_cast<std::uint32_t>(of.edges.size())});
+                                .edges = static_cast<std::uint32_t>(of.edges.size()),
+                                .kind = kind_of_features(collider),
+                                .unused = {}});
             for (const RoundPoint& point : of.points) points.push_back(with(point.place, point.radius));
             for (const RoundEdge& edge : of.edges) {
                 edges.push_back(with(edge.from, edge.radius_from));

@@ -69,6 +69,8 @@ struct FeaturesIn {
     uint points;
     uint first_edge;
     uint edges;
+    int kind;  // WEFT_FEATURES_…
+    uint unused[3];
 };
 
 // BodyTouch, and what it is between.

@@ -12,7 +12,9 @@ bool has_features(uint collider)
 }
 void add_pair(uint features, uint shape)
 {
-    if (!has_features(features)) return;
+    if (!has_features(features) ||
+        !features_meet(WEFT_BODIES.features.at[features].kind, WEFT_BODIES.features.at[shape].kind, features < shape))
+        return;
     uint at = atomicAdd(found_pairs, 1u);
     if (at >= WEFT_BODIES.pair_room) return;
     WEFT_BODIES.pairs.at[2u * at] = features;
