@@ -444,7 +444,7 @@ struct KeepArgs {
 struct LimitArgs {
     Vec4s position;
     Uints particles;  // of the stretch constraints
-    Floats rest;
+    Floats fields;    // of the same
     Floats lambda;
     Uints span_ends;  // two per span
     Floats span_lengths;

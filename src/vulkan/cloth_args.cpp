@@ -83,7 +83,7 @@ LimitArgs ClothArgs::limit_args() const {
     const Elasticity& elastic = model_.elasticity;
     return {.position = state(PointArray::position),
             .particles = of_model(rows.particles),
-            .rest = of_model(rows.fields),
+            .fields = of_model(rows.fields),
             .lambda = state(cloth_.kept),
             .span_ends = of_model(buffers_.span_ends),
             .span_lengths = of_model(buffers_.span_lengths),

@@ -46,11 +46,13 @@ float tension_in(const ConstraintTable& stretch, std::span<const float> lambda, 
     // same bits in every order.
     std::array<std::uint32_t, bin_count> bins{};
     std::uint32_t count = 0;
+    const float* const compliances = stretch.fields.data() + stretch.stride;
     const auto scale =
         static_cast<float>(-1 / (substep_seconds * substep_seconds * StretchLaw(fabric.stretch).softest_spring()));
     for (std::uint32_t begin = 0; begin < stretch.stride; begin += 4 * lane_padding) {
         for (std::uint32_t row = begin; row < begin + lane_padding; ++row) {
-            if (!stretch.is_real(row)) continue;
+            const bool stiff = !(compliances[row] < 0 && compliances[stretch.stride + row] < 0);
+            if (!stiff || !stretch.is_real(row)) continue;
             const float strain = scale * lambda[row] / stretch.fields[row];
             ++count;
             ++bins[bin_of(strain)];

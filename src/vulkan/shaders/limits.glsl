@@ -34,6 +34,13 @@ float start_of(uint bin)
            uintBitsToFloat((127u + steps / WEFT_BINS_PER_DOUBLING) << 23);
 }
 
+// Constraints that were removed from a line keep their particles, without stiffness.
+bool is_stiff(uint r)
+{
+    uint stride = limit_args.at.stride;
+    return !(limit_args.at.fields.at[stride + r] < 0.0 && limit_args.at.fields.at[2u * stride + r] < 0.0);
+}
+
 void run_limits()
 {
     // The limits depend on lambda of the previous frame, which the first run of this frame has overwritten.
@@ -51,7 +58,8 @@ void run_limits()
         uint r = i / WEFT_ROWS_LOOKED_AT * 4u * WEFT_ROWS_LOOKED_AT + i % WEFT_ROWS_LOOKED_AT;
         uint a = limit_args.at.particles.at[r];
         if (a >= limit_args.at.first_dummy || a == limit_args.at.particles.at[limit_args.at.stride + r]) continue;
-        float strain = scale * limit_args.at.lambda.at[r] / limit_args.at.rest.at[r];
+        if (!is_stiff(r)) continue;
+        float strain = scale * limit_args.at.lambda.at[r] / limit_args.at.fields.at[r];
         atomicAdd(bins[bin_of(strain)], 1u);
     }
     for (uint i = me; i < limit_args.at.spans; i += all) {
