@@ -136,9 +136,14 @@ TEST_F(Glsl, lines_compile) {
 
 TEST_F(Glsl, tension_compiles) {
     EXPECT_EQ(compile("    TearSide side = TearSide(n[0], n[1], n[2], n[3], n[4]);\n"
-                      "    PlaneStress s = triangle_stress(x[i].xyz, x[i + 1].xyz, x[i + 2].xyz, side, side, side);\n"
+                      "    TearCoupling q = TearCoupling(n[0], n[1], n[2], n[3], n[4], n[5]);\n"
+                      "    TearFlat laid = lay_flat(x[i].xyz, x[i + 1].xyz, x[i + 2].xyz, side, side);\n"
+                      "    PlaneStress s = springs_stress(laid, side, side, side);\n"
+                      "    s = add_stress(s, coupling_stress(laid, side, side, side, q), 1);\n"
                       "    Tension t = principal_tension(turn_stress(s, n[5], n[6]));\n"
-                      "    float limit = inverse_cut_limit(side_stiffness(side, n[5], n[6], t.x, t.y), n[7], n[8]);\n"
+                      "    float k = side_stiffness(side, n[5], n[6], t.x, t.y) +\n"
+                      "              coupling_stiffness(side, side, side, q, n[5], n[6], t.x, t.y);\n"
+                      "    float limit = inverse_cut_limit(k, n[7], n[8]);\n"
                       "    x[i] = vec4(t.most, t.least, inverse_strength(t.x, t.y, n[9], n[10]), limit);\n"),
               "");
 }

@@ -252,9 +252,10 @@ struct TearView {
     const float* position;
     const std::uint32_t* faces;  ///< [corner · stride + triangle]
     std::uint32_t stride;
-    const float* sides;   ///< as in TearLaw
-    const float* limits;  ///< TearLaw::watch
-    std::uint16_t* hot;   ///< per lane_padding triangles: a bit for each
+    const float* sides;      ///< as in TearLaw
+    const float* couplings;  ///< likewise; nullptr if it has none
+    const float* limits;     ///< TearLaw::watch
+    std::uint16_t* hot;      ///< per lane_padding triangles: a bit for each
 };
 
 /// In the arrays by constraint kind, an entry is nullptr if no plan uses it (physics/constraint_parts.h).

@@ -9,6 +9,15 @@ WEFT_FN TearSide load_side(const TearView& view, std::size_t side, std::size_t t
     return loaded;
 }
 
+WEFT_FN TearCoupling load_coupling(const TearView& view, std::size_t triangle) {
+    const float* at = view.couplings + triangle;
+    const std::size_t stride = view.stride;
+    TearCoupling loaded;
+    loaded.ab = load(at), loaded.bc = load(at + stride), loaded.ca = load(at + 2 * stride);
+    loaded.ab_bc = load(at + 3 * stride), loaded.bc_ca = load(at + 4 * stride), loaded.ca_ab = load(at + 5 * stride);
+    return loaded;
+}
+
 inline void watch_tears_pass(const TearView& view, float part, Range range) {
     const real limit(part);
     for (std::size_t i = range.begin; i < range.end; i += lane_count) {
@@ -16,7 +25,10 @@ inline void watch_tears_pass(const TearView& view, float part, Range range) {
         real unused;
         for (std::size_t k = 0; k < 3; ++k) x[k] = gather_blocks(view.position, view.faces + k * view.stride + i, unused);
         const TearSide sides[3] = {load_side(view, 0, i), load_side(view, 1, i), load_side(view, 2, i)};
-        const PlaneStress stress = triangle_stress(x[0], x[1], x[2], sides[0], sides[1], sides[2]);
+        const TearFlat flat = lay_flat(x[0], x[1], x[2], sides[0], sides[1]);
+        PlaneStress stress = springs_stress(flat, sides[0], sides[1], sides[2]);
+        if (view.couplings)
+            stress = add_stress(stress, coupling_stress(flat, sides[0], sides[1], sides[2], load_coupling(view, i)), real(1.0f));
         real strain(0.0f);
         for (std::size_t k = 0; k < 3; ++k) strain = max(strain, side_strain(x[k], x[(k + 1) % 3], sides[k]));
         const real radius = sqrt(stress.difference * stress.difference + stress.mixed * stress.mixed);

@@ -14,7 +14,7 @@ constexpr float loaded_part_of_load = 0.99f;
 
 // Larger than 1 / limit of the tension in any direction at a particle where a cut ends, m/N. With the angle between a
 // side and the tension, 2φ = angle of q and D, the stiffness is Σ k cos⁴φ = Σ k (1 + 2 q·D + (q·D)²)/4. It is at least
-// (Σ k - 2 |Σ k q| + the smaller eigenvalue of Σ k q qᵀ)/4.
+// (Σ k - 2 |Σ k q| + the smaller eigenvalue of Σ k q qᵀ)/4. Couplings only add to it.
 float most_inverse_end_limit(const scalar::TearAccess& c, std::uint32_t particle) {
     const std::uint32_t vertex = c.vertex[particle];
     double area = 0, length = 0, links = 0, all = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
@@ -113,6 +113,7 @@ TearView Tearing::view(const ClothModel& model, const float* position, const flo
             .faces = arrays_.faces.data(),
             .stride = model.face_stride,
             .sides = law.sides.data(),
+            .couplings = law.couplings.empty() ? nullptr : law.couplings.data(),
             .limits = limits,
             .hot = hot.data()};
 }

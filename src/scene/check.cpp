@@ -381,8 +381,6 @@ void check_tearing(const SceneCloth& cloth, const std::optional<MadeMesh>& made,
     };
     const bool split = cloth.tearing == Tearing::split, erode = cloth.tearing == Tearing::erode;
     for (std::size_t i = 0; i < cloth.cuts.size(); ++i) check_cut(cloth.cuts[i], at(at(pointer, "cuts"), i), problems);
-    if (cloth.tearing != Tearing::off && cloth.fabric.stretch.model == StretchModel::membrane)
-        problems.add(at(pointer, "tearing"), "needs the fabric's \"stretch_model\": \"edges\"");
     needs(!cloth.cuts.empty(), "cuts", cloth.tearing != Tearing::off, "\"cuts\", \"split\" or \"erode\"");
     for (std::size_t i = 0; i < cloth.seams.size(); ++i) {
         const std::string place = at(at(pointer, "seams"), i);

@@ -11,25 +11,19 @@ namespace {
 using reference::vec3;
 using Three = std::array<double, 3>;
 
-/// Of a triangle at rest: the edges opposite its corners along warp and weft, m.
-struct FlatTriangle {
-    Three along_warp{}, along_weft{}, length2{};
-};
-
-FlatTriangle flatten(const RestShape& rest, std::uint32_t triangle) {
+MembraneShape shape_of(const RestShape& rest, std::uint32_t triangle) {
     const Triangle& corners = rest.topology.triangles[triangle];
     std::array<vec3, 3> x;
     for (std::size_t i = 0; i < 3; ++i) x[i] = reference::to_double(rest.topology.rest_positions[corners[i]]);
     const vec3 normal = reference::cross(x[1] - x[0], x[2] - x[0]);
     const vec3 warp = reference::to_double(rest.warp[triangle]);
     const vec3 weft = reference::cross(normal, warp) * (1 / std::sqrt(reference::dot(normal, normal)));
-    FlatTriangle flat;
+    MembraneShape shape;
     for (std::size_t i = 0; i < 3; ++i) {
         const vec3 edge = x[(i + 2) % 3] - x[(i + 1) % 3];
-        flat.along_warp[i] = reference::dot(edge, warp), flat.along_weft[i] = reference::dot(edge, weft);
-        flat.length2[i] = reference::dot(edge, edge);
+        shape.along_warp[i] = reference::dot(edge, warp), shape.along_weft[i] = reference::dot(edge, weft);
     }
-    return flat;
+    return shape;
 }
 
 /// Inverse of a matrix given by rows; zeros if it has none.
@@ -42,16 +36,16 @@ SymmetricMatrix inverse(const SymmetricMatrix& m) {
     return inverse;
 }
 
-SymmetricMatrix membrane_of(const FlatTriangle& flat, const float (&moduli)[2], float shear) {
+SymmetricMatrix membrane_of(const MembraneShape& shape, const float (&moduli)[2], float shear) {
     // The measure of an edge is e·ε e, with ε in the coordinates warp, weft and the angle between them.
     SymmetricMatrix strains{};
     for (std::size_t i = 0; i < 3; ++i) {
-        strains[i] = {flat.along_warp[i] * flat.along_warp[i], flat.along_weft[i] * flat.along_weft[i],
-                      flat.along_warp[i] * flat.along_weft[i]};
+        strains[i] = {shape.along_warp[i] * shape.along_warp[i], shape.along_weft[i] * shape.along_weft[i],
+                      shape.along_warp[i] * shape.along_weft[i]};
     }
     const SymmetricMatrix of_measures = inverse(strains);
     const double area =
-        0.5 * std::abs(flat.along_warp[0] * flat.along_weft[1] - flat.along_weft[0] * flat.along_warp[1]);
+        0.5 * std::abs(shape.along_warp[0] * shape.along_weft[1] - shape.along_weft[0] * shape.along_warp[1]);
     const Three stiffness = {moduli[0], moduli[1], shear};
     SymmetricMatrix m{};
     for (std::size_t k = 0; k < 3; ++k)
@@ -120,22 +114,28 @@ Three best_springs(const SymmetricMatrix& m, const Three& length2) {
 
 }  // namespace
 
-MembraneSplit split_membrane(const RestShape& rest, std::uint32_t triangle, const StretchMaterial& material) {
-    const FlatTriangle flat = flatten(rest, triangle);
+MembraneSplit split_membrane(const MembraneShape& shape, const StretchMaterial& material) {
+    Three length2{};
+    for (std::size_t i = 0; i < 3; ++i)
+        length2[i] = shape.along_warp[i] * shape.along_warp[i] + shape.along_weft[i] * shape.along_weft[i];
     MembraneSplit split;
-    split.remainder = membrane_of(flat, material.stretch, material.shear);
-    const Three pulled = best_springs(split.remainder, flat.length2);
+    split.remainder = membrane_of(shape, material.stretch, material.shear);
+    const Three pulled = best_springs(split.remainder, length2);
     const bool alike = std::ranges::equal(material.stretch, material.compression);
     const Three pushed =
-        alike ? pulled : best_springs(membrane_of(flat, material.compression, material.shear), flat.length2);
+        alike ? pulled : best_springs(membrane_of(shape, material.compression, material.shear), length2);
     for (std::size_t i = 0; i < 3; ++i) {
         const double all = split.remainder[i][i];
         split.remainder[i][i] -= pulled[i];
         if (!(split.remainder[i][i] > 1e-9 * all))  // rounding of what was taken
             for (std::size_t j = 0; j < 3; ++j) split.remainder[i][j] = split.remainder[j][i] = 0;
-        split.stretched[i] = pulled[i] * flat.length2[i], split.compressed[i] = pushed[i] * flat.length2[i];
+        split.stretched[i] = pulled[i] * length2[i], split.compressed[i] = pushed[i] * length2[i];
     }
     return split;
+}
+
+MembraneSplit split_membrane(const RestShape& rest, std::uint32_t triangle, const StretchMaterial& material) {
+    return split_membrane(shape_of(rest, triangle), material);
 }
 
 }  // namespace weft

@@ -17,6 +17,12 @@ struct MembraneSplit {
     SymmetricMatrix remainder{};
 };
 
+/// Edges of a triangle at rest, m.
+struct MembraneShape {
+    std::array<double, 3> along_warp{}, along_weft{};
+};
+
+MembraneSplit split_membrane(const MembraneShape& shape, const StretchMaterial& material);
 MembraneSplit split_membrane(const RestShape& rest, std::uint32_t triangle, const StretchMaterial& material);
 
 }  // namespace weft

@@ -57,6 +57,22 @@ std::vector<StretchLaw::Compliances> edges_of_membrane(const RestShape& rest, co
 
 }  // namespace
 
+std::vector<std::array<StretchLaw::Compliances, 3>> springs_of_membrane(const RestShape& rest,
+                                                                        const StretchMaterial& material) {
+    std::vector<MembraneSplit> splits;
+    double most = 0;
+    for (std::uint32_t t = 0; t < rest.topology.triangles.size(); ++t) {
+        splits.push_back(split_membrane(rest, t, material));
+        for (const auto& of : {splits.back().stretched, splits.back().compressed})
+            most = std::max(most, std::ranges::max(of));
+    }
+    std::vector<std::array<StretchLaw::Compliances, 3>> springs(splits.size());
+    for (std::size_t t = 0; t < splits.size(); ++t)
+        for (std::size_t i = 0; i < 3; ++i)
+            springs[t][i] = compliances_of(splits[t].stretched[i], splits[t].compressed[i], 1e-6 * most);
+    return springs;
+}
+
 StretchLaw::Side StretchLaw::side_of(const float (&moduli)[2], float shear) {
     const Moduli k = without_shear({moduli[0], moduli[1]}, shear);
     // In a fabric without shear stiffness, rounding leaves up to a millionth of warp and weft in a diagonal.

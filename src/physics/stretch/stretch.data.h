@@ -38,7 +38,7 @@ inline constexpr Parameter stretch_parameters[] = {
      .what = "keep the length of every edge, whatever the stiffnesses"},
     {.key = "stretch_model", .kind = ParameterKind::choice, .offset = offsetof(StretchMaterial, model),
      .what = "`edges`: springs along the edges, exact for pulls along warp and weft on grids; `membrane`: exact strain of "
-             "each triangle, on any mesh and in any direction. Cloths that tear, are cut or have seams need `edges`",
+             "each triangle, on any mesh and in any direction",
      .choices = "edges|membrane",
      .choice_words = "springs along the edges|strain of each triangle; cannot tear"},
 };

@@ -4,6 +4,9 @@
 #include "physics/rest_shape.h"
 #include "physics/stretch/stretch.data.h"
 
+#include <array>
+#include <vector>
+
 namespace weft {
 
 /// Stiffness of a material's edges. Has no branches on the edge, so loops over edges vectorize.
@@ -41,5 +44,9 @@ class StretchLaw {
     float bias_;  ///< N/m
     bool inextensible_;
 };
+
+/// Of the springs of each triangle of a membrane, the edge opposite corner i at index i.
+std::vector<std::array<StretchLaw::Compliances, 3>> springs_of_membrane(const RestShape& rest,
+                                                                        const StretchMaterial& material);
 
 }  // namespace weft

@@ -70,6 +70,10 @@ WEFT_FN real tear_inverse_end_limit(TearCloth c, uint particle, real x, real y, 
         real c2 = tear_turn(c, i, 0u), s2 = tear_turn(c, i, 1u);
         for (uint k = 0u; k < 3u; ++k)
             stiffness = stiffness + side_stiffness(tear_side(c, t, k), c2, s2, x, y) * tear_area(c, t);
+        if (tear_has_couplings(c))
+            stiffness = stiffness + coupling_stiffness(tear_side(c, t, 0u), tear_side(c, t, 1u), tear_side(c, t, 2u),
+                                                       tear_coupling(c, t), c2, s2, x, y) *
+                                        tear_area(c, t);
         if (tear_next(c, i) == WEFT_TEAR_NONE) continue;
         length = length + tear_length(c, i);
         links = links + real(1);
@@ -107,6 +111,15 @@ WEFT_FN TearLoad tear_seam_load(TearCloth c, uint particle, TearLoad at, PlaneSt
     return most;
 }
 
+// Stress of a triangle with these positions of its corners.
+WEFT_FN PlaneStress tear_stress(TearCloth c, uint t, vec3 x0, vec3 x1, vec3 x2, TearSide a, TearSide b, TearSide d)
+{
+    TearFlat laid = lay_flat(x0, x1, x2, a, b);
+    PlaneStress stress = springs_stress(laid, a, b, d);
+    if (tear_has_couplings(c)) stress = add_stress(stress, coupling_stress(laid, a, b, d, tear_coupling(c, t)), real(1));
+    return stress;
+}
+
 WEFT_FN TearLoad tear_load(TearCloth c, uint particle)
 {
     uint vertex = tear_vertex_of(c, particle);
@@ -119,7 +132,7 @@ WEFT_FN TearLoad tear_load(TearCloth c, uint particle)
         vec3 x0 = tear_position(c, tear_corner_of(c, t, 0u)), x1 = tear_position(c, tear_corner_of(c, t, 1u)),
              x2 = tear_position(c, tear_corner_of(c, t, 2u));
         TearSide a = tear_side(c, t, 0u), b = tear_side(c, t, 1u), d = tear_side(c, t, 2u);
-        PlaneStress stress = turn_stress(triangle_stress(x0, x1, x2, a, b, d), tear_turn(c, i, 0u), tear_turn(c, i, 1u));
+        PlaneStress stress = turn_stress(tear_stress(c, t, x0, x1, x2, a, b, d), tear_turn(c, i, 0u), tear_turn(c, i, 1u));
         sum = add_stress(sum, stress, tear_area(c, t));
         area = area + tear_area(c, t);
         if (mine != 2u) strain = max(strain, side_strain(x0, x1, a));   // the two sides at this corner
@@ -149,7 +162,7 @@ WEFT_FN bool tear_is_hot(TearCloth c, uint t, real part)
     vec3 x0 = tear_position(c, tear_corner_of(c, t, 0u)), x1 = tear_position(c, tear_corner_of(c, t, 1u)),
          x2 = tear_position(c, tear_corner_of(c, t, 2u));
     TearSide a = tear_side(c, t, 0u), b = tear_side(c, t, 1u), d = tear_side(c, t, 2u);
-    PlaneStress stress = triangle_stress(x0, x1, x2, a, b, d);
+    PlaneStress stress = tear_stress(c, t, x0, x1, x2, a, b, d);
     real radius = sqrt(stress.difference * stress.difference + stress.mixed * stress.mixed);
     real strain = max(max(max(real(0), side_strain(x0, x1, a)), side_strain(x1, x2, b)), side_strain(x2, x0, d));
     return (stress.mean + radius) * tear_watch_limit(c, t, 0u) > part || strain * tear_watch_limit(c, t, 1u) > part;
@@ -485,10 +498,10 @@ WEFT_FN void tear_update_stretch(TearCloth c, uint row)
     }
 }
 
-// Other constraints end if they cross an open edge.
+// Other constraints end if they cross an open edge, or with their first triangle.
 WEFT_FN void tear_update_other(TearCloth c, uint kind, uint row)
 {
-    bool open = false;
+    bool open = !tear_lives(c, tear_triangle(c, tear_row_corner(c, kind, row, 0u)));
     for (uint i = tear_tie_begin(c, kind, row); i < tear_tie_begin(c, kind, row + 1u); ++i)
         if (tear_face(c, tear_tie(c, kind, i, 0u)) != tear_face(c, tear_tie(c, kind, i, 1u))) open = true;
     if (open) {

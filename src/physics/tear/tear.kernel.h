@@ -94,22 +94,73 @@ WEFT_FN PlaneStress turned_side_stress(real x, real y, TearSide side, TearRotati
                        select(has_direction, (r.c * y - r.s * x) * inverse, side.y));
 }
 
-// Mean stress of the triangle (a, b, c): force per width at rest, in the axes of warp and weft that move with it.
-WEFT_FN PlaneStress triangle_stress(vec3 a, vec3 b, vec3 c, TearSide ab, TearSide bc, TearSide ca)
+// A triangle in its plane: its sides are (u, 0), (vx, height) and the one that closes it.
+struct TearFlat {
+    real u, vx, height;
+    TearRotation turned;   // from the axes of warp and weft
+};
+
+WEFT_FN TearFlat lay_flat(vec3 a, vec3 b, vec3 c, TearSide ab, TearSide bc)
 {
     vec3 first = b - a, second = c - b;
-    real u = sqrt(dot(first, first));
-    mask able = u > real(1e-20);
-    vec3 along = first * select(able, real(1) / select(able, u, real(1)), real(0));
-    real vx = dot(second, along);
-    vec3 aside = second - along * vx;
+    TearFlat laid;
+    laid.u = sqrt(dot(first, first));
+    mask able = laid.u > real(1e-20);
+    vec3 along = first * select(able, real(1) / select(able, laid.u, real(1)), real(0));
+    laid.vx = dot(second, along);
+    vec3 aside = second - along * laid.vx;
     real vy = sqrt(dot(aside, aside));
-    TearRotation r = triangle_rotation(u, vx, vy, ab, bc);
-    mask turned = ab.x * bc.y - ab.y * bc.x < real(0);
-    real height = select(turned, -vy, vy);
-    PlaneStress s = turned_side_stress(u, real(0), ab, r);
-    s = add_stress(s, turned_side_stress(vx, height, bc, r), real(1));
-    return add_stress(s, turned_side_stress(-u - vx, -height, ca, r), real(1));
+    laid.turned = triangle_rotation(laid.u, laid.vx, vy, ab, bc);
+    laid.height = select(ab.x * bc.y - ab.y * bc.x < real(0), -vy, vy);
+    return laid;
+}
+
+// Mean stress of a triangle whose sides are springs: force per width at rest, in the axes of warp and weft that move with
+// it.
+WEFT_FN PlaneStress springs_stress(TearFlat f, TearSide ab, TearSide bc, TearSide ca)
+{
+    PlaneStress s = turned_side_stress(f.u, real(0), ab, f.turned);
+    s = add_stress(s, turned_side_stress(f.vx, f.height, bc, f.turned), real(1));
+    return add_stress(s, turned_side_stress(-f.u - f.vx, -f.height, ca, f.turned), real(1));
+}
+
+// What a membrane adds to the springs of a triangle's sides: the energy per area 1/2 g Q g, with the Green strains g of the
+// sides ab, bc and ca. These are the numbers of Q, which is symmetric, in N/m.
+struct TearCoupling {
+    real ab, bc, ca, ab_bc, bc_ca, ca_ab;
+};
+
+// Green strain of a side that runs along (x, y).
+WEFT_FN real side_green(real x, real y, TearSide side)
+{
+    mask able = side.rest > real(1e-10);
+    real inverse = real(1) / select(able, side.rest, real(1));
+    x = x * inverse;
+    y = y * inverse;
+    return select(able, real(0.5) * (x * x + y * y - real(1)), real(0));
+}
+
+// q l/l0 n N^T of one side, made symmetric: q is the derivative of the energy by its Green strain.
+WEFT_FN PlaneStress green_stress(real q, real x, real y, TearSide side, TearRotation r)
+{
+    mask able = side.rest > real(1e-10);
+    real part = select(able, q * real(0.5) / select(able, side.rest, real(1)), real(0));
+    real nx = r.c * x + r.s * y, ny = r.c * y - r.s * x;
+    PlaneStress s;
+    s.mean = part * (nx * side.x + ny * side.y);
+    s.difference = part * (nx * side.x - ny * side.y);
+    s.mixed = part * (nx * side.y + ny * side.x);
+    return s;
+}
+
+// The part of a membrane's stress that its springs do not have.
+WEFT_FN PlaneStress coupling_stress(TearFlat f, TearSide ab, TearSide bc, TearSide ca, TearCoupling q)
+{
+    real last_x = -f.u - f.vx;
+    real g0 = side_green(f.u, real(0), ab), g1 = side_green(f.vx, f.height, bc), g2 = side_green(last_x, -f.height, ca);
+    PlaneStress s = green_stress(q.ab * g0 + q.ab_bc * g1 + q.ca_ab * g2, f.u, real(0), ab, f.turned);
+    s = add_stress(s, green_stress(q.ab_bc * g0 + q.bc * g1 + q.bc_ca * g2, f.vx, f.height, bc, f.turned), real(1));
+    return add_stress(s, green_stress(q.ca_ab * g0 + q.bc_ca * g1 + q.ca * g2, last_x, -f.height, ca, f.turned), real(1));
 }
 
 // The same tensor in axes from which the present ones are turned by an angle; c2, s2: cosine and sine of twice that.
@@ -140,14 +191,28 @@ WEFT_FN Tension principal_tension(PlaneStress s)
     return t;
 }
 
-// Stiffness of a side against strain in the direction (x, y): k cos^4 of the angle between them. The axes of (x, y) are
-// turned from those of the side as turn_stress() has it.
-WEFT_FN real side_stiffness(TearSide side, real c2, real s2, real x, real y)
+// Square of the cosine of the angle between a side and the direction (x, y). The axes of (x, y) are turned from those of the
+// side as turn_stress() has it.
+WEFT_FN real side_cos2(TearSide side, real c2, real s2, real x, real y)
 {
     real side_c2 = side.x * side.x - side.y * side.y, side_s2 = real(2) * side.x * side.y;
-    real cos2 = real(0.5) + real(0.5) * ((side_c2 * c2 - side_s2 * s2) * (x * x - y * y) +
-                                         (side_c2 * s2 + side_s2 * c2) * (real(2) * x * y));
+    return real(0.5) + real(0.5) * ((side_c2 * c2 - side_s2 * s2) * (x * x - y * y) +
+                                    (side_c2 * s2 + side_s2 * c2) * (real(2) * x * y));
+}
+
+// Stiffness of a side against strain in the direction (x, y): k cos^4 of the angle between them.
+WEFT_FN real side_stiffness(TearSide side, real c2, real s2, real x, real y)
+{
+    real cos2 = side_cos2(side, c2, s2, x, y);
     return side.pull * cos2 * cos2;
+}
+
+// The stiffness of a membrane that its springs do not have.
+WEFT_FN real coupling_stiffness(TearSide ab, TearSide bc, TearSide ca, TearCoupling q, real c2, real s2, real x, real y)
+{
+    real g0 = side_cos2(ab, c2, s2, x, y), g1 = side_cos2(bc, c2, s2, x, y), g2 = side_cos2(ca, c2, s2, x, y);
+    return q.ab * g0 * g0 + q.bc * g1 * g1 + q.ca * g2 * g2 +
+           real(2) * (q.ab_bc * g0 * g1 + q.bc_ca * g1 * g2 + q.ca_ab * g2 * g0);
 }
 
 // 1 / strength in the direction (x, y), m/N: 1/S = cos^2/S_warp + sin^2/S_weft. Takes 1/S_warp and 1/S_weft, 0 where

@@ -137,14 +137,19 @@ TEST(Tear, of_a_triangle_is_the_derivative_of_its_energy_at_large_stretch) {
             return std::array{stretch[0] * rest[k][0] + stretch[2] * rest[k][1],
                               stretch[2] * rest[k][0] + stretch[1] * rest[k][1]};
         };
+        const reference::TearCoupling coupling{random.number(0, 9),  random.number(0, 9),  random.number(0, 9),
+                                               random.number(-9, 9), random.number(-9, 9), random.number(-9, 9)};
         const auto energy = [&](const double(&stretch)[3]) {
-            double sum = 0;
+            double sum = 0, green[3];
             for (int k = 0; k < 3; ++k) {
                 const auto a = stretched(stretch, k), b = stretched(stretch, (k + 1) % 3);
                 const double strain = std::hypot(b[0] - a[0], b[1] - a[1]) / sides[k].rest - 1;
                 sum += 0.5 * (strain > 0 ? sides[k].pull : sides[k].push) * strain * strain;
+                green[k] = strain * (1 + 0.5 * strain);
             }
-            return sum;
+            const auto& [ab, bc, ca, ab_bc, bc_ca, ca_ab] = coupling;
+            return sum + 0.5 * (ab * green[0] * green[0] + bc * green[1] * green[1] + ca * green[2] * green[2]) +
+                   ab_bc * green[0] * green[1] + bc_ca * green[1] * green[2] + ca_ab * green[2] * green[0];
         };
         // A random frame in space; with an area below 0 the triangle is seen from behind.
         vec3 e1 = random.vector(1), e2 = random.vector(1);
@@ -156,26 +161,66 @@ TEST(Tear, of_a_triangle_is_the_derivative_of_its_energy_at_large_stretch) {
             const auto at = stretched(u, k);
             points[k] = e1 * at[0] + e2 * at[1];
         }
-        const PlaneStress s = reference::triangle_stress(points[0], points[1], points[2], sides[0], sides[1], sides[2]);
+        const auto flat = reference::lay_flat(points[0], points[1], points[2], sides[0], sides[1]);
+        const PlaneStress s =
+            reference::add_stress(reference::springs_stress(flat, sides[0], sides[1], sides[2]),
+                                  reference::coupling_stress(flat, sides[0], sides[1], sides[2], coupling), 1);
         const double expected[3] = {s.mean + s.difference, s.mean - s.difference, 2 * s.mixed};
         for (int k = 0; k < 3; ++k) {
             constexpr double step = 1e-6;
             double more[3] = {u[0], u[1], u[2]}, less[3] = {u[0], u[1], u[2]};
             more[k] += step, less[k] -= step;
-            EXPECT_NEAR((energy(more) - energy(less)) / (2 * step), expected[k], 1e-4) << i << ' ' << k;
+            EXPECT_NEAR((energy(more) - energy(less)) / (2 * step), expected[k], 1e-4 + 1e-8 * std::abs(expected[k]))
+                << i << ' ' << k;
         }
     }
 }
 
+// The second derivative of the energy by a small strain along a direction, as for side_stiffness().
+TEST(Tear, stiffness_of_a_coupling_is_that_of_its_stress) {
+    Random random(5);
+    for (int i = 0; i < 50; ++i) {
+        const double x[3] = {0, 1, random.number(0, 1)}, y[3] = {0, random.number(-0.5, 0.5), random.number(0.8, 1.5)};
+        TearSide sides[3];
+        for (int k = 0; k < 3; ++k) {
+            const double dx = x[(k + 1) % 3] - x[k], dy = y[(k + 1) % 3] - y[k], length = std::hypot(dx, dy);
+            sides[k] = {length, 0, 0, dx / length, dy / length};
+        }
+        const reference::TearCoupling coupling{random.number(0, 9),  random.number(0, 9),  random.number(0, 9),
+                                               random.number(-9, 9), random.number(-9, 9), random.number(-9, 9)};
+        const double angle = random.number(0, 6), turn = random.number(0, 6), strain = 1e-6;
+        const double dx = std::cos(angle), dy = std::sin(angle);  // of the strain, in the triangle's axes
+        vec3 points[3];
+        for (int k = 0; k < 3; ++k) {
+            const double along = strain * (dx * x[k] + dy * y[k]);
+            points[k] = vec3(x[k] + along * dx, y[k] + along * dy, 0);
+        }
+        const auto flat = reference::lay_flat(points[0], points[1], points[2], sides[0], sides[1]);
+        const PlaneStress s = reference::coupling_stress(flat, sides[0], sides[1], sides[2], coupling);
+        const double along = s.mean + s.difference * (dx * dx - dy * dy) + s.mixed * 2 * dx * dy;
+        // The same direction in axes that are turned against those of the triangle.
+        const double tx = std::cos(angle + turn), ty = std::sin(angle + turn);
+        EXPECT_NEAR(along / strain,
+                    reference::coupling_stiffness(sides[0], sides[1], sides[2], coupling, std::cos(2 * turn),
+                                                  std::sin(2 * turn), tx, ty),
+                    1e-4);
+    }
+}
+
 TEST(Tear, degenerate_sides_have_no_stress) {
+    const auto stress = [](scalar::vec3 a, scalar::vec3 b, scalar::vec3 c, scalar::TearSide side) {
+        const auto flat = scalar::lay_flat(a, b, c, side, side);
+        return scalar::add_stress(scalar::springs_stress(flat, side, side, side),
+                                  scalar::coupling_stress(flat, side, side, side, {1e9f, 1e9f, 1e9f, 1, 1, 1}), 1);
+    };
     for (const float rest : {0.0f, 1e-30f}) {
         const scalar::TearSide side{rest, 1e9f, 1e9f, 1, 0};
         EXPECT_EQ(scalar::side_strain({0, 0, 0}, {1, 0, 0}, side), 0);
-        EXPECT_EQ(scalar::triangle_stress({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, side, side, side).mean, 0);
+        EXPECT_EQ(stress({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, side).mean, 0);
     }
     // Collapsed now, sound at rest: compressed, finite.
     const scalar::TearSide side{1, 100, 100, 1, 0};
-    EXPECT_EQ(scalar::triangle_stress({1, 1, 1}, {1, 1, 1}, {1, 1, 1}, side, side, side).mean, -150);
+    EXPECT_EQ(stress({1, 1, 1}, {1, 1, 1}, {1, 1, 1}, side).mean, -150);
 }
 
 TEST(Tear, strength_between_the_threads_follows_both) {

@@ -22,6 +22,19 @@ struct Averages {
     std::vector<double> ratio;                   // largest strain of the sides over its limit
 };
 
+reference::TearCoupling coupling_of(const StressTable::Face& face) {
+    const SymmetricMatrix& q = face.coupling;
+    return {.ab = q[0][0], .bc = q[1][1], .ca = q[2][2], .ab_bc = q[0][1], .bc_ca = q[1][2], .ca_ab = q[2][0]};
+}
+
+reference::PlaneStress stress_of(const StressTable& table, const StressTable::Face& face, const vec3 (&x)[3]) {
+    const auto& [ab, bc, ca] = face.sides;
+    const reference::TearFlat flat = reference::lay_flat(x[0], x[1], x[2], ab, bc);
+    const reference::PlaneStress springs = reference::springs_stress(flat, ab, bc, ca);
+    if (!table.membranes) return springs;
+    return reference::add_stress(springs, reference::coupling_stress(flat, ab, bc, ca, coupling_of(face)), 1);
+}
+
 Averages gather(const StressTable& table, std::span<const Vec4> positions) {
     const std::size_t count = table.area.size();
     Averages sums{std::vector<reference::PlaneStress>(count, reference::no_stress()), std::vector<double>(count)};
@@ -29,7 +42,7 @@ Averages gather(const StressTable& table, std::span<const Vec4> positions) {
     for (const StressTable::Face& face : table.faces) {
         const vec3 x[3] = {place(positions[face.corners[0]]), place(positions[face.corners[1]]),
                            place(positions[face.corners[2]])};
-        const auto stress = reference::triangle_stress(x[0], x[1], x[2], face.sides[0], face.sides[1], face.sides[2]);
+        const reference::PlaneStress stress = stress_of(table, face, x);
         for (std::size_t k = 0; k < 3; ++k) {
             reference::PlaneStress& sum = sums.stress[face.corners[k]];
             const auto& [c2, s2] = face.turns[k];
@@ -51,9 +64,11 @@ std::vector<double> stiffness_at_cut_ends(const StressTable& table, std::span<co
             const std::uint32_t p = face.corners[k];
             if (!(table.cut_end[p] > 0)) continue;
             const auto& [c2, s2] = face.turns[k];
-            for (const reference::TearSide& side : face.sides)
-                stiffness[p] +=
-                    reference::side_stiffness(side, c2, s2, tensions[p].x, tensions[p].y) * face.area / table.area[p];
+            const auto& [ab, bc, ca] = face.sides;
+            const double x = tensions[p].x, y = tensions[p].y;
+            double here = reference::coupling_stiffness(ab, bc, ca, coupling_of(face), c2, s2, x, y);
+            for (const reference::TearSide& side : face.sides) here += reference::side_stiffness(side, c2, s2, x, y);
+            stiffness[p] += here * face.area / table.area[p];
         }
     }
     return stiffness;

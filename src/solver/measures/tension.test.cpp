@@ -160,6 +160,34 @@ TEST(TensionMeasure, of_a_uniform_strain_is_off_by_what_the_mesh_is_too_stiff) {
     }
 }
 
+// Threads of a membrane do not contract across a pull.
+TEST(TensionMeasure, of_a_uniformly_strained_membrane_is_that_of_the_fabric_on_every_mesh) {
+    for (Fabric fabric : {woven(4000, 4000, 40), woven(411, 2028, 27), woven(300, 300, 100)}) {
+        fabric.stretch.model = StretchModel::membrane;
+        const StretchMaterial& stretch = fabric.stretch;
+        const double rounding = 1e-6 * double{std::max(stretch.stretch[0], stretch.stretch[1])};  // of positions
+        for (const TestMesh mesh : {TestMesh::uniform, TestMesh::alternating, TestMesh::cross, TestMesh::irregular}) {
+            const auto model = tension_model(tension_mesh(mesh), fabric);
+            const StressTable table = make_stress_table(*model, model->triangles());
+            for (const LoadCase& load : load_cases) {
+                const double strain[3] = {load.stress[0] / double{stretch.stretch[0]},
+                                          load.stress[1] / double{stretch.stretch[1]},
+                                          load.stress[2] / double{stretch.shear}};
+                const double scale = 2e-3 / std::max({strain[0], strain[1], strain[2]});
+                const ClothTension measured =
+                    measure_tension(table, strained(*model, {scale * strain[0], scale * strain[1], scale * strain[2]}));
+                double sum = 0;
+                for (const double tension : measured.tension) sum += tension;
+                EXPECT_NEAR(sum / model->particle_count, scale * unit_load, 0.003 * scale * unit_load);
+                for (std::uint32_t p = 0; p < model->particle_count; ++p)
+                    EXPECT_NEAR(measured.tension[p], scale * unit_load, 0.005 * scale * unit_load + rounding)
+                        << load.name << " on mesh " << static_cast<int>(mesh) << ", particle " << p;
+                if (HasFailure()) return;
+            }
+        }
+    }
+}
+
 TEST(TensionMeasure, does_not_depend_on_how_the_cloth_is_folded) {
     const auto model = tension_model(tension_mesh(TestMesh::alternating, 8), woven(2000, 1000, 50));
     const StressTable table = make_stress_table(*model, model->triangles());

@@ -265,7 +265,7 @@ Result<void> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology
 
     measure_edges(model, rest);
     if (reserve.openings) {
-        auto tears = make_tear_table(model, topology);
+        auto tears = make_tear_table(model, rest);
         if (!tears) return tears.errors();
         model.tears = std::move(*tears);
         if (reserve.tears) {
@@ -281,8 +281,6 @@ Result<void> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology
 }  // namespace
 
 Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc, Topology topology) {
-    if (desc.reserve.openings && desc.fabric.stretch.model == StretchModel::membrane)
-        return Error{"fabric", "a cloth that opens needs the stretch model \"edges\""};
     auto model = std::make_shared<ClothModel>();
     model->name = std::move(desc.name);
     model->start_velocity = desc.start_velocity;

@@ -2,6 +2,7 @@
 
 #include "mesh/edges.h"
 #include "mesh/procedural.h"
+#include "physics/stretch/stretch_law.h"
 #include "solver/model/cuts.h"
 
 #include <gtest/gtest.h>
@@ -20,25 +21,36 @@ struct Kind {
     bool lines = true;
     BendModel bend = BendModel::moment;
     bool erodes = false;
+    StretchModel stretch = StretchModel::edges;
 };
 const Kind kinds[] = {{},
                       {.diagonal = GridDiagonal::uniform, .lines = false, .bend = BendModel::dihedral},
                       {.jitter = 0.25f, .bend = BendModel::distance},
                       {.diagonal = GridDiagonal::uniform, .jitter = 0.25f, .bend = BendModel::plate},
-                      {.diagonal = GridDiagonal::cross, .lines = false, .bend = BendModel::plate}};
+                      {.diagonal = GridDiagonal::cross, .lines = false, .bend = BendModel::plate},
+                      {.stretch = StretchModel::membrane},
+                      {.diagonal = GridDiagonal::uniform, .jitter = 0.25f, .stretch = StretchModel::membrane},
+                      {.diagonal = GridDiagonal::cross, .lines = false, .stretch = StretchModel::membrane}};
 
-std::shared_ptr<const ClothModel> make_tearable(const Kind& kind, std::uint32_t reserve = 400) {
+TriangleMesh mesh_of(const Kind& kind) {
     TriangleMesh mesh = make_grid({1, 1}, {9, 9}, kind.diagonal);
     std::mt19937 random(5);
     std::uniform_real_distribution<float> moved(-kind.jitter / 8, kind.jitter / 8);
     for (Vec3& x : mesh.positions) x = x + Vec3{moved(random), 0, moved(random)};
     mesh.uvs.clear();
+    return mesh;
+}
+
+std::shared_ptr<const ClothModel> make_tearable(const Kind& kind, std::uint32_t reserve = 400) {
+    TriangleMesh mesh = mesh_of(kind);
     ClothModelDesc desc{
         .name = "sheet",
         .layout = {.lines = kind.lines, .hierarchy = true},
         .reserve = {
             .particles = reserve, .constraints = 16, .openings = true, .tears = kind.erodes, .erodes = kind.erodes}};
     desc.fabric.bend.model = kind.bend;
+    desc.fabric.stretch.model = kind.stretch;
+    if (kind.stretch == StretchModel::membrane) desc.fabric.stretch.compression[0] *= 0.25f;
     auto topology = build_topology(mesh, {.reorder = false});
     desc.mesh = std::move(mesh);
     auto built = build_cloth_model(std::move(desc), std::move(*topology));
@@ -107,6 +119,56 @@ void expect_rows_of_edges(const ClothModel& model, const std::vector<float>& are
     EXPECT_TRUE(strips.empty()) << strips.size() << " edges of " << areas.size() << " triangles have no constraint";
 }
 
+// Each triangle has kept its springs and its membrane.
+void expect_membranes_of_triangles(const ClothModel& model, const Kind& kind) {
+    const TriangleMesh mesh = mesh_of(kind);
+    const Topology topology = *build_topology(mesh, {.reorder = false});
+    const auto springs = springs_of_membrane(make_rest_shape(mesh, topology), model.fabric.stretch);
+    using Sum = std::array<double, 2>;
+    std::map<Ends, Sum> expected, got;
+    const auto add = [](Sum& sum, float stretched, float compressed) {
+        if (stretched > 0) sum[0] += 1 / double{stretched};
+        if (compressed > 0) sum[1] += 1 / double{compressed};
+    };
+    std::uint32_t triangles = 0, left_out = 0;
+    for (std::uint32_t t = 0; t < model.triangle_count; ++t) {
+        const Triangle now = model.triangles()[t];
+        if (now[0] == now[1]) continue;
+        ++triangles;
+        for (std::size_t i = 0; i < 3; ++i)
+            add(expected[sorted(now[(i + 1) % 3], now[(i + 2) % 3])], springs[t][i].stretched,
+                springs[t][i].compressed);
+    }
+    const ConstraintTable& table = model.table(ConstraintKind::stretch);
+    for (std::uint32_t row = 0; row < table.stride; ++row) {
+        if (!table.is_real(row) || table.geometry[table.stride + row] < 0) continue;
+        add(got[sorted(particle_of(table, row, 0), particle_of(table, row, 1))], table.fields[table.stride + row],
+            table.fields[std::size_t{2} * table.stride + row]);
+    }
+    for (const auto& [ends, sum] : expected) {
+        const Sum& found = got[ends];
+        if (sum[0] == 0 && sum[1] == 0) ++left_out;
+        for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(found[k], sum[k], 1e-5 * sum[k]) << ends[0] << ' ' << ends[1];
+    }
+    EXPECT_LT(left_out, expected.size());
+    EXPECT_EQ(got.size(), expected.size());
+    const ConstraintTable& membranes = model.table(ConstraintKind::membrane);
+    std::set<Triangle> alive, spanned;
+    const auto in_order = [](Triangle triangle) {
+        std::ranges::sort(triangle);
+        return triangle;
+    };
+    for (std::uint32_t t = 0; t < model.triangle_count; ++t)
+        if (model.face_area[t] > 0) alive.insert(in_order(model.triangles()[t]));
+    for (std::uint32_t row = 0; row < membranes.stride; ++row)
+        if (membranes.is_real(row))
+            spanned.insert(in_order(
+                {particle_of(membranes, row, 0), particle_of(membranes, row, 1), particle_of(membranes, row, 2)}));
+    EXPECT_EQ(spanned.size(), membranes.rows);
+    EXPECT_EQ(spanned, alive);
+    EXPECT_EQ(alive.size(), triangles);
+}
+
 void expect_rows_of_hinges(const ClothModel& model, const HingeList& hinges) {
     std::multiset<std::array<std::uint32_t, 4>> expected, got;
     const bool tips_alone = model.fabric.bend.model == BendModel::distance;
@@ -170,7 +232,7 @@ void expect_one_fan_each(const ClothModel& model, const std::vector<Triangle>& t
     }
 }
 
-void expect_consistent(const ClothModel& model) {
+void expect_consistent(const ClothModel& model, const Kind& kind) {
     std::vector<Triangle> triangles;
     std::vector<float> areas;
     for (std::uint32_t t = 0; t < model.triangle_count; ++t) {
@@ -181,7 +243,11 @@ void expect_consistent(const ClothModel& model) {
     const EdgeList edges = build_edges(triangles, model.particle_count);
     EXPECT_TRUE(edges.non_manifold.empty());
     expect_one_fan_each(model, triangles, edges);
-    expect_rows_of_edges(model, areas, edges);
+    if (kind.stretch == StretchModel::membrane) {
+        expect_membranes_of_triangles(model, kind);
+    } else {
+        expect_rows_of_edges(model, areas, edges);
+    }
     if (model.fabric.bend.model == BendModel::plate) {
         expect_plates_on_triangles(model, edges, triangles);
     } else {
@@ -198,13 +264,13 @@ double sum_of(const SharedArray<float>& numbers) {
 TEST(Openings, leave_the_constraints_of_the_opened_mesh) {
     for (const Kind& kind : kinds) {
         const auto model = make_tearable(kind);
-        expect_consistent(*model);
+        expect_consistent(*model, kind);
         for (const std::size_t count : {1, 3, 12, 60}) {
             const auto opened = with_edit(*model, {.openings = random_openings(*model, count, unsigned(count))});
             ASSERT_TRUE(opened.ok()) << opened.errors()[0].message();
             EXPECT_NEAR(sum_of((*opened)->mass), sum_of(model->mass), 1e-6 * sum_of(model->mass));
             EXPECT_EQ((*opened)->particle_count, model->particle_count + (*opened)->copied_from.size());
-            expect_consistent(**opened);
+            expect_consistent(**opened, kind);
             if (HasFailure()) return;
         }
     }
@@ -229,7 +295,7 @@ TEST(Openings, that_remove_triangles_leave_the_constraints_of_the_others) {
             const auto openings = random_removals(*model, count, unsigned(count));
             const auto opened = with_edit(*model, {.openings = openings});
             ASSERT_TRUE(opened.ok()) << opened.errors()[0].message();
-            expect_consistent(**opened);
+            expect_consistent(**opened, kind);
             const double expected = sum_of((*opened)->face_area) * double{model->fabric.body.density};
             EXPECT_NEAR(mass_of_triangles(**opened), expected, 1e-6 * sum_of(model->mass));
             auto one_by_one = model;
@@ -237,7 +303,7 @@ TEST(Openings, that_remove_triangles_leave_the_constraints_of_the_others) {
             EXPECT_EQ(one_by_one->faces, (*opened)->faces);
             EXPECT_EQ(one_by_one->table(ConstraintKind::stretch).fields,
                       (*opened)->table(ConstraintKind::stretch).fields);
-            expect_consistent(*one_by_one);
+            expect_consistent(*one_by_one, kind);
             if (HasFailure()) return;
         }
     }
@@ -279,11 +345,13 @@ TEST(Openings, of_all_edges_leave_single_triangles) {
         const auto opened = with_edit(*model, {.openings = openings_between(*model, group)});
         ASSERT_TRUE(opened.ok());
         EXPECT_EQ((*opened)->particle_count, 3 * model->triangle_count);
-        EXPECT_EQ((*opened)->table(ConstraintKind::stretch).rows, 3 * model->triangle_count);
+        if (kind.stretch == StretchModel::edges) {
+            EXPECT_EQ((*opened)->table(ConstraintKind::stretch).rows, 3 * model->triangle_count);
+        }
         EXPECT_EQ((*opened)->table(ConstraintKind::bend).rows, 0u);
         EXPECT_EQ((*opened)->table(ConstraintKind::moment).rows, 0u);
         EXPECT_TRUE(openings_between(**opened, group).empty()) << "all are open";
-        expect_consistent(**opened);
+        expect_consistent(**opened, kind);
     }
 }
 
@@ -339,19 +407,20 @@ TEST(Openings, along_a_plane_stay_near_it) {
         for (const std::uint32_t p : (*opened)->copied_from)
             EXPECT_LT(std::abs(dot(model->rest_position(p) - point, normal)), 0.75f * model->longest_edge);
         EXPECT_GE((*opened)->copied_from.size(), 8u);
-        expect_consistent(**opened);
+        expect_consistent(**opened, kind);
     }
 }
 
 TEST(Openings, along_a_stroke_end_where_it_ends) {
-    const auto model = make_tearable({.jitter = 0.2f});
+    const Kind kind{.jitter = 0.2f};
+    const auto model = make_tearable(kind);
     const std::vector<Vec3> stroke{{-0.6f, 0, 0.02f}, {0, 0, 0.1f}, {0.26f, 0, -0.1f}};
     const auto openings = openings_along_stroke(*model, model->start, stroke);
     const auto opened = with_edit(*model, {.openings = openings});
     ASSERT_TRUE(opened.ok());
     EXPECT_GE((*opened)->copied_from.size(), 5u);
     for (const std::uint32_t p : (*opened)->copied_from) EXPECT_LT(model->rest_position(p).x, 0.3f);
-    expect_consistent(**opened);
+    expect_consistent(**opened, kind);
     EXPECT_TRUE(openings_along_stroke(*model, model->start, {}).empty());
     EXPECT_TRUE(openings_along_stroke(*model, model->start, std::vector<Vec3>{{0, 0, 0}, {0, 0, 0.001f}}).empty());
 }

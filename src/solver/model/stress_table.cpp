@@ -1,6 +1,7 @@
 #include "solver/model/stress_table.h"
 
 #include "mesh/edges.h"
+#include "physics/membrane/membrane_split.h"
 #include "physics/stretch/stretch_law.h"
 #include "solver/model/tear_paint.h"
 #include "solver/model/tear_table.h"
@@ -53,6 +54,25 @@ reference::TearSide make_side(const StretchLaw& law, const RestTriangle& rest, s
     const double x = dot(along, rest.warp) / length, y = dot(along, cross(rest.normal, rest.warp)) / length;
     const StretchLaw::Compliances at = law.at(static_cast<float>(std::min(1.0, x * x)), 1);
     return {.rest = length, .pull = stiffness(at.stretched), .push = stiffness(at.compressed), .x = x, .y = y};
+}
+
+// Gives the sides the springs of the membrane. `rest` has an area.
+void add_membrane(StressTable::Face& face, const RestTriangle& rest, const StretchMaterial& material) {
+    const auto opposite = [](std::size_t k) { return (k + 2) % 3; };  // corner of side k
+    MembraneShape shape;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const reference::TearSide& side = face.sides[k];
+        shape.along_warp[opposite(k)] = side.x * side.rest, shape.along_weft[opposite(k)] = side.y * side.rest;
+    }
+    const MembraneSplit split = split_membrane(shape, material);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double rest2 = face.sides[k].rest * face.sides[k].rest;
+        face.sides[k].pull = split.stretched[opposite(k)] * rest2 / face.area;
+        face.sides[k].push = split.compressed[opposite(k)] * rest2 / face.area;
+        for (std::size_t l = 0; l < 3; ++l)
+            face.coupling[k][l] =
+                split.remainder[opposite(k)][opposite(l)] * rest2 * face.sides[l].rest * face.sides[l].rest / face.area;
+    }
 }
 
 double angle_at(const RestTriangle& rest, std::size_t k) {
@@ -199,6 +219,8 @@ StressTable make_stress_table(const ClothModel& model, const TriangleView& trian
     table.tear_energy = fabric.tear.tear_energy;
     table.tear_ratio = fabric.tear.tear_ratio;
 
+    table.membranes = fabric.stretch.model == StretchModel::membrane && !table.inextensible;
+
     const StretchLaw law(fabric.stretch);
     std::vector<std::vector<Corner>> around(model.particle_count);
     std::vector<vec3> normals(model.particle_count, vec3(0, 0, 0));
@@ -229,6 +251,7 @@ StressTable make_stress_table(const ClothModel& model, const TriangleView& trian
             table.area[p] += area;
             for (const std::uint32_t end : {p, triangle[(k + 1) % 3]}) lengths[end] += face.sides[k].rest, ++sides[end];
         }
+        if (table.membranes) add_membrane(face, rest, fabric.stretch);
         table.faces.push_back(face);
     }
     const std::vector<std::uint8_t> rim = rim_of(edges, model.particle_count);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "physics/scalar.h"
+#include "physics/symmetric.h"
 #include "solver/model/cloth_model.h"
 #include "solver/model/tear_paint.h"
 
@@ -16,7 +17,8 @@ struct StressTable {
         std::uint32_t triangle = 0;                  ///< of the cloth
         std::array<std::uint32_t, 3> corners{};      ///< perhaps wound in the other direction
         std::array<reference::TearSide, 3> sides{};  ///< side k runs from corner k to the next one
-        double area = 0;                             ///< m²
+        SymmetricMatrix coupling{};  ///< N/m, by side: the energy per area is ½ gᵀ Q g (TearCoupling)
+        double area = 0;             ///< m²
         /// Per corner: cosine and sine of twice the angle from the particle's axes to those of the triangle.
         std::array<std::array<double, 2>, 3> turns{};
     };
@@ -35,6 +37,7 @@ struct StressTable {
     };
     std::vector<Seam> seams;
     std::vector<double> inverse_resistance;  ///< per particle: factor on the load; empty: 1
+    bool membranes = false;                  ///< whether any face has a coupling
     bool inextensible = false;               ///< stress cannot be computed, and all stiffnesses are 0
 
     std::array<double, 2> inverse_strength{};  ///< m/N, warp and weft; 0: no limit

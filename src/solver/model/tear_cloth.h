@@ -18,9 +18,9 @@ using uint = std::uint32_t;
 
 // The kinds of constraints that openings change, as the rules number them.
 inline constexpr uint WEFT_TEAR_STRETCH = 0;
-inline constexpr std::array<ConstraintKind, 5> tear_kinds{ConstraintKind::stretch, ConstraintKind::bend,
-                                                          ConstraintKind::plate, ConstraintKind::distance_bend,
-                                                          ConstraintKind::moment};
+inline constexpr std::array<ConstraintKind, 6> tear_kinds{ConstraintKind::stretch, ConstraintKind::bend,
+                                                          ConstraintKind::plate,   ConstraintKind::distance_bend,
+                                                          ConstraintKind::moment,  ConstraintKind::membrane};
 inline uint tear_kind(ConstraintKind kind) {
     return static_cast<uint>(std::ranges::find(tear_kinds, kind) - tear_kinds.begin());
 }
@@ -86,6 +86,14 @@ WEFT_FN TearSide tear_side(TearCloth c, uint triangle, uint k) {
     const std::size_t stride = c.model.tear_law->stride;
     const float* at = c.model.tear_law->sides.data() + 5 * k * stride + triangle;
     return {at[0], at[stride], at[2 * stride], at[3 * stride], at[4 * stride]};
+}
+WEFT_FN bool tear_has_couplings(TearCloth c) {
+    return !c.model.tear_law->couplings.empty();
+}
+WEFT_FN TearCoupling tear_coupling(TearCloth c, uint triangle) {
+    const std::size_t stride = c.model.tear_law->stride;
+    const float* at = c.model.tear_law->couplings.data() + triangle;
+    return {at[0], at[stride], at[2 * stride], at[3 * stride], at[4 * stride], at[5 * stride]};
 }
 WEFT_FN real tear_area(TearCloth c, uint triangle) {
     return c.model.tear_law->area[triangle];
@@ -232,6 +240,13 @@ WEFT_OUTLINED_FN void tear_end_stretch(TearCloth c, uint row) {
     for (std::size_t at = table.stride + row; at < rows.fields.size(); at += table.stride) rows.fields[at] = -1;
     for (std::size_t at = row; at < rows.geometry.size(); at += table.stride) rows.geometry[at] = no_area;
 }
+/// Compliances of one half of an edge that has two triangles.
+inline StretchLaw::Compliances half_of_edge(const TearTable& table, const StretchLaw& law, std::size_t row, bool first,
+                                            float cos2, float strip_of_half) {
+    if (table.springs.empty()) return law.at(cos2, strip_of_half);
+    const std::array<float, 4>& springs = table.springs[row];
+    return first ? StretchLaw::Compliances{springs[0], springs[1]} : StretchLaw::Compliances{springs[2], springs[3]};
+}
 // Gives each half of an opened edge the stiffness of its own triangle, if the second half is not in use yet.
 WEFT_OUTLINED_FN void tear_part_stiffness(TearCloth c, uint row) {
     OpenedArrays::Rows& rows = tear_rows(c, WEFT_TEAR_STRETCH);
@@ -244,7 +259,8 @@ WEFT_OUTLINED_FN void tear_part_stiffness(TearCloth c, uint row) {
                 first_part = c.model.tears->first_part[row];
     rows.fields[second] = rows.fields[row];
     const auto set = [&](std::size_t at, float part) {
-        const StretchLaw::Compliances compliances = c.stretch.at(cos2, strip * part);
+        const StretchLaw::Compliances compliances =
+            half_of_edge(*c.model.tears, c.stretch, row, at == row, cos2, strip * part);
         rows.geometry[at] = cos2, rows.geometry[stride + at] = strip * part;
         rows.fields[stride + at] = compliances.stretched, rows.fields[2 * stride + at] = compliances.compressed;
     };
@@ -268,7 +284,7 @@ WEFT_OUTLINED_FN void tear_settle(TearCloth c, uint row, bool first) {
         if (!first) strip = rows.geometry[stride + second];
         tear_end_row(c, WEFT_TEAR_STRETCH, static_cast<uint>(second));
     }
-    const StretchLaw::Compliances compliances = c.stretch.at(cos2, strip);
+    const StretchLaw::Compliances compliances = half_of_edge(*c.model.tears, c.stretch, row, first, cos2, strip);
     rows.fields[stride + row] = compliances.stretched, rows.fields[2 * stride + row] = compliances.compressed;
     c.arrays.settled[row] = 1;
 }

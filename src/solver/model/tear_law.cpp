@@ -26,6 +26,7 @@ class LawBuilder {
           stress_(make_stress_table(model, {faces_.data(), model.face_stride, model.triangle_count})) {
         law_.stride = model.face_stride;
         law_.sides.resize(std::size_t{15} * law_.stride);
+        if (stress_.membranes) law_.couplings.resize(std::size_t{6} * law_.stride);
         law_.area.resize(law_.stride);
         law_.entries.resize(model.tears->entries.size());
     }
@@ -53,12 +54,14 @@ class LawBuilder {
 
     void add_sides(const StressTable::Face& face) {
         const std::uint32_t t = face.triangle;
+        std::array<std::size_t, 3> same{};  // the face's side, by side of the triangle
         law_.area[t] = single(face.area);
         for (std::uint32_t k = 0; k < 3; ++k) {
             const std::uint32_t a = corner(t, k), b = corner(t, (k + 1) % 3);
             for (std::uint32_t other = 0; other < 3; ++other) {
                 const std::uint32_t c = face.corners[other], d = face.corners[(other + 1) % 3];
                 if (!(a == c && b == d) && !(a == d && b == c)) continue;
+                same[k] = other;
                 const auto& [rest, pull, push, x, y] = face.sides[other];
                 const double way = a == c ? 1 : -1;  // the side may run the other way
                 const std::array numbers{rest, pull, push, way * x, way * y};
@@ -66,6 +69,13 @@ class LawBuilder {
                     law_.sides[std::size_t{5 * k + i} * law_.stride + t] = single(numbers[i]);
             }
         }
+        if (stress_.membranes) add_coupling(face, same);
+    }
+    void add_coupling(const StressTable::Face& face, const std::array<std::size_t, 3>& same) {
+        const auto at = [&](std::size_t k, std::size_t l) { return face.coupling[same[k]][same[l]]; };
+        const std::array numbers{at(0, 0), at(1, 1), at(2, 2), at(0, 1), at(1, 2), at(2, 0)};
+        for (std::size_t i = 0; i < numbers.size(); ++i)
+            law_.couplings[i * law_.stride + face.triangle] = single(numbers[i]);
     }
     void add_turn(const StressTable::Face& face, std::uint32_t vertex, TearLaw::Entry& entry) const {
         for (std::uint32_t k = 0; k < 3; ++k) {

@@ -23,6 +23,8 @@ struct TearLaw {
     /// [(5 · side + number) · stride + triangle]: the numbers of TearSide in their order. Side k runs from corner k to
     /// the next one. A triangle without stress has sides of length 0.
     AlignedVector<float> sides;
+    /// [number · stride + triangle]: the numbers of TearCoupling in their order. Empty unless the cloth has membranes.
+    AlignedVector<float> couplings;
     AlignedVector<float> area;  ///< m², per triangle; 0 if it has no stress
     struct Entry {
         /// Cosine and sine of twice the angle from the vertex's axes to the triangle's.

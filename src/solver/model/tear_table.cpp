@@ -1,5 +1,6 @@
 #include "solver/model/tear_table.h"
 
+#include "physics/stretch/stretch_law.h"
 #include "solver/model/cloth_model.h"
 
 #include <algorithm>
@@ -16,7 +17,8 @@ EdgeEnds sorted(std::uint32_t a, std::uint32_t b) {
 
 class TearTableBuilder {
   public:
-    TearTableBuilder(const ClothModel& model, const Topology& topology) : model_(model), topology_(topology) {}
+    TearTableBuilder(const ClothModel& model, const RestShape& rest)
+        : model_(model), rest_(rest), topology_(rest.topology) {}
 
     TearTable run() {
         make_rings();
@@ -24,6 +26,8 @@ class TearTableBuilder {
         for (const TearTable::Entry& entry : table_.entries) table_.vertices[entry.corner] = entry.vertex;
         make_twins();
         make_stretch();
+        make_springs();
+        make_membranes();
         make_hinged(ConstraintKind::bend);
         make_hinged(ConstraintKind::moment);
         make_hinged(ConstraintKind::distance_bend);
@@ -157,6 +161,36 @@ class TearTableBuilder {
         }
     }
 
+    void make_springs() {
+        if (model_.table(ConstraintKind::membrane).rows == 0) return;
+        const auto springs = springs_of_membrane(rest_, model_.fabric.stretch);
+        const auto& corners = table_.rows[static_cast<std::uint32_t>(ConstraintKind::stretch)].corners;
+        const std::uint32_t half = table_.half_stride, stride = model_.table(ConstraintKind::stretch).stride;
+        const auto of_edge = [&](std::uint32_t a, std::uint32_t b) -> StretchLaw::Compliances {
+            if (a == none) return {-1, -1};
+            return springs[a % model_.face_stride][3 - a / model_.face_stride - b / model_.face_stride];
+        };
+        table_.springs.resize(half);
+        for (std::uint32_t row = 0; row < half; ++row) {
+            if (corners[row] == none) continue;
+            const auto first = of_edge(corners[row], corners[stride + row]);
+            const auto second = of_edge(table_.second[row], table_.second[half + row]);
+            table_.springs[row] = {first.stretched, first.compressed, second.stretched, second.compressed};
+        }
+    }
+    void make_membranes() {
+        const ConstraintTable& table = model_.table(ConstraintKind::membrane);
+        auto& rows = begin_rows(ConstraintKind::membrane);
+        rows.tie_begin.assign(std::size_t{table.stride} + 1, 0);
+        for (std::uint32_t row = 0; row < table.stride; ++row) {
+            if (!table.is_real(row)) continue;
+            const auto at = [&](std::uint32_t slot) { return table.particles[std::size_t{slot} * table.stride + row]; };
+            const std::uint32_t t = triangle_with({at(0), at(1), at(2)});
+            for (std::uint32_t slot = 0; slot < 3; ++slot)
+                rows.corners[std::size_t{slot} * rows.stride + row] = corner(t, at(slot));
+        }
+    }
+
     void tie(TearTable::Rows& rows, std::uint32_t a, std::uint32_t b, std::uint32_t t0, std::uint32_t t1) const {
         for (const std::uint32_t end : {a, b}) rows.ties.push_back({corner(t0, end), corner(t1, end)});
     }
@@ -221,6 +255,17 @@ class TearTableBuilder {
         return none;
     }
 
+    // In any order.
+    std::uint32_t triangle_with(std::array<std::uint32_t, 3> corners) const {
+        std::ranges::sort(corners);
+        for (const std::uint32_t t : topology_.particle_triangles[corners[0]]) {
+            Triangle triangle = topology_.triangles[t];
+            std::ranges::sort(triangle);
+            if (std::ranges::equal(triangle, corners)) return t;
+        }
+        return none;
+    }
+
     // Lists each constraint at every vertex on which its particles or its end depend.
     void list_rows() {
         std::vector<std::uint32_t> vertices;
@@ -243,18 +288,19 @@ class TearTableBuilder {
     }
 
     const ClothModel& model_;
+    const RestShape& rest_;
     const Topology& topology_;
     TearTable table_;
 };
 
 }  // namespace
 
-Result<std::shared_ptr<const TearTable>> make_tear_table(const ClothModel& model, const Topology& topology) {
-    if (topology.report.non_manifold_edges > 0)
+Result<std::shared_ptr<const TearTable>> make_tear_table(const ClothModel& model, const RestShape& rest) {
+    if (rest.topology.report.non_manifold_edges > 0)
         return Error{"cloth '" + model.name + "'",
-                     "cannot be cut or torn: " + std::to_string(topology.report.non_manifold_edges) +
+                     "cannot be cut or torn: " + std::to_string(rest.topology.report.non_manifold_edges) +
                          " edges of its mesh have three triangles or more"};
-    return std::make_shared<const TearTable>(TearTableBuilder(model, topology).run());
+    return std::make_shared<const TearTable>(TearTableBuilder(model, rest).run());
 }
 
 }  // namespace weft

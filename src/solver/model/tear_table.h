@@ -3,7 +3,7 @@
 #pragma once
 
 #include "mesh/grouping.h"
-#include "mesh/topology.h"
+#include "physics/rest_shape.h"
 #include "solver/model/constraint_table.h"
 
 #include <weft/result.h>
@@ -48,6 +48,9 @@ struct TearTable {
     std::vector<std::uint32_t> second;
     std::uint32_t half_stride = 0;
     std::vector<float> first_part;  ///< per row below half_stride: the first triangle's part of the area of both
+    /// Per row below half_stride, m/N: the compliances of the first triangle's spring, stretched and compressed, then
+    /// of the second one's. Empty unless the cloth has membranes: StretchLaw then gives them.
+    std::vector<std::array<float, 4>> springs;
 
     struct RowRef {
         ConstraintKind kind{};
@@ -59,7 +62,7 @@ struct TearTable {
     std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(ring_begin.size() - 1); }
 };
 
-/// The table of a model that was just built from `topology`. Fails if an edge has three triangles or more.
-Result<std::shared_ptr<const TearTable>> make_tear_table(const ClothModel& model, const Topology& topology);
+/// The table of a model that was just built from `rest`. Fails if an edge has three triangles or more.
+Result<std::shared_ptr<const TearTable>> make_tear_table(const ClothModel& model, const RestShape& rest);
 
 }  // namespace weft

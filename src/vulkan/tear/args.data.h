@@ -5,7 +5,7 @@
 #include "vulkan/args.data.h"
 
 #define WEFT_TEAR_GROUP 128    // the most invocations of a workgroup
-#define WEFT_TEAR_KINDS 5      // of constraints: stretch, bend, plate, distance_bend, moment
+#define WEFT_TEAR_KINDS 6      // of constraints: stretch, bend, plate, distance_bend, moment, membrane
 #define WEFT_TEAR_ROW_BITS 28  // of the row in an element of row_items; the kind is above
 
 #ifdef __cplusplus
@@ -48,6 +48,7 @@ struct TearData {
     Uints entries;       // six per entry: vertex, corner, next, far, next_far, twin
     Floats numbers;      // six per entry: turn (two numbers), angle, length, along (two numbers)
     Floats sides;        // TearLaw::sides
+    Floats couplings;    // TearLaw::couplings; null without membranes
     Floats area;         // TearLaw::area
     Floats face_area;    // m2
     Uints faces;         // [corner]
@@ -89,7 +90,7 @@ struct TearData {
     float watched_part;
     uint erodes;
     uint has_seams;
-    uint unused;
+    uint has_couplings;
 };
 
 struct TearArgs {

@@ -71,7 +71,8 @@ struct TearArrays {
             const float cos2 = table.geometry[row], strip = table.geometry[stride + row],
                         first = model.tears->first_part[row];
             if (strip < 0) continue;
-            const StretchLaw::Compliances one = law.at(cos2, strip * first), other = law.at(cos2, strip * (1 - first));
+            const auto one = scalar::half_of_edge(*model.tears, law, row, true, cos2, strip * first);
+            const auto other = scalar::half_of_edge(*model.tears, law, row, false, cos2, strip * (1 - first));
             half_fields[4 * row] = one.stretched, half_fields[4 * row + 1] = one.compressed;
             half_fields[4 * row + 2] = other.stretched, half_fields[4 * row + 3] = other.compressed;
         }
@@ -117,6 +118,7 @@ Result<void> Tearing::add(const ClothState& cloth, std::size_t member, const std
     put(data.vertices, arena.add_array(table.vertices)), put(data.watch, arena.add_array(law.watch));
     put(data.inverse_resistance, arena.add_array(law.inverse_resistance));
     if (!law.seams.empty()) put(data.seams, arena.add_array(law.seams));
+    if (!law.couplings.empty()) put(data.couplings, arena.add_array(law.couplings));
     if (!arrays.settled.empty()) put(data.settled, arena.add_array(arrays.settled));
     put(data.row_begin, arena.add_array(table.rows_at.offsets));
     put(data.row_items, arena.add_array(arrays.row_items)), put(data.second, arena.add_array(table.second));
@@ -154,6 +156,7 @@ Result<void> Tearing::add(const ClothState& cloth, std::size_t member, const std
     data.energy = law.tear_energy, data.inverse_stretch = law.inverse_stretch;
     data.density = model.fabric.body.density, data.watched_part = watched_part_of_load;
     data.erodes = model.reserved.erodes, data.has_seams = !law.seams.empty();
+    data.has_couplings = !law.couplings.empty();
     const Slot of_kinds = torn.data_arena.add_array(kinds);
     torn.data = torn.data_arena.reserve(sizeof data);
     if (auto built = torn.data_arena.build(device_, "addresses of tearing of " + name); !built) return built;

@@ -40,6 +40,13 @@ TearSide tear_side(TearCloth c, uint triangle, uint k)
                     tear_side_number(triangle, 5u * k + 2u), tear_side_number(triangle, 5u * k + 3u),
                     tear_side_number(triangle, 5u * k + 4u));
 }
+bool tear_has_couplings(TearCloth c) { return tear_data.has_couplings != 0u; }
+float tear_coupling_number(uint triangle, uint i) { return tear_data.couplings.at[i * tear_data.stride + triangle]; }
+TearCoupling tear_coupling(TearCloth c, uint triangle)
+{
+    return TearCoupling(tear_coupling_number(triangle, 0u), tear_coupling_number(triangle, 1u), tear_coupling_number(triangle, 2u),
+                        tear_coupling_number(triangle, 3u), tear_coupling_number(triangle, 4u), tear_coupling_number(triangle, 5u));
+}
 float tear_area(TearCloth c, uint triangle) { return tear_data.area.at[triangle]; }
 float tear_turn(TearCloth c, uint i, uint k) { return tear_data.numbers.at[6u * i + k]; }
 float tear_angle(TearCloth c, uint i) { return tear_data.numbers.at[6u * i + 2u]; }
