@@ -101,29 +101,29 @@ TEST_F(CliBench, counts_the_bytes_that_a_frame_moves) {
     // have found no batch may.
     const std::string plain = "--no-hierarchy --projection ";
     const Json rows = scene(plain + "gauss-seidel");
-    EXPECT_DOUBLE_EQ(per_row(rows, "stretch"), 2 * 4 + 3 * 4 + 2 * 16 * 2);
+    EXPECT_DOUBLE_EQ(per_row(rows, "stretch"), 2 * 4 + 4 * 4 + 2 * 16 * 2);
     // The multiplier is written, and two shifts of the rest angle are read. Then the coupling with four others reads
     // them and moves the shifts.
     const double of_moment = 4 * 4 + 4 * 4 + 4 * 16 * 2 + 3 * 4 + (4 + 7 + 1 + 2 + 2) * 4;
     EXPECT_NEAR(per_row(rows, "moment"), of_moment, 0.5);
     // Of two iterations the first writes lambda and the second reads and writes it.
-    EXPECT_DOUBLE_EQ(per_row(scene(plain + "gauss-seidel --iterations 2"), "stretch"), 84 + 4 * 3 / 2.0);
+    EXPECT_DOUBLE_EQ(per_row(scene(plain + "gauss-seidel --iterations 2"), "stretch"), 88 + 4 * 3 / 2.0);
     // Side by side, a share and corrections are added; particles are read once and not moved.
-    const double corrections = 2 * 4 + 3 * 4 + 4 + 2 * 16;
+    const double corrections = 2 * 4 + 4 * 4 + 4 + 2 * 16;
     EXPECT_DOUBLE_EQ(per_row(scene(plain + "jacobi"), "stretch"), corrections + 120 * 16 / (11 * 10 + 12 * 9 + 99.0));
     // Along a line, rows share the particles between them.
     const Json lines = scene("");
-    EXPECT_GT(per_row(lines, "stretch"), 2 * 4 + 3 * 4 + 16 * 2);
-    EXPECT_LT(per_row(lines, "stretch"), 84 - 20);
+    EXPECT_GT(per_row(lines, "stretch"), 2 * 4 + 4 * 4 + 16 * 2);
+    EXPECT_LT(per_row(lines, "stretch"), 88 - 20);
 
     // A frame: 20 times what moves particles, what is between them and what they may touch; then damping and normals.
     // The velocities of all substeps but the last are one pass with the next prediction.
-    const double moves = 120 * 16 * (8 + 6 / 20.0 + 2), all_rows = 317 * 84.0 + 277 * of_moment;
-    const double damping = 317 * (20 + 2 * 48) + 277 * (32 + 4 * 48);
+    const double moves = 120 * 16 * (8 + 6 / 20.0 + 2), all_rows = 317 * 88.0 + 277 * of_moment;
+    const double damping = 317 * (24 + 2 * 48) + 277 * (32 + 4 * 48);
     const double surface = 4 * (198 * (12 + 16) + 120 * 16) + 198 * 16;  // smooth_faces reads triangles too
     const double expected = 20 * (moves + all_rows) + damping + surface;
     EXPECT_NEAR(rows["bytes_per_frame"], expected, 0.001 * expected);
-    EXPECT_DOUBLE_EQ(rows["working_set_bytes"], 120 * 64 + 317 * 20 + 277 * (32 + 4 + (4 + 7 + 2) * 4));
+    EXPECT_DOUBLE_EQ(rows["working_set_bytes"], 120 * 64 + 317 * 24 + 277 * (32 + 4 + (4 + 7 + 2) * 4));
     for (const char* stage : {"predict", "stretch", "moment", "contact", "velocities", "damp", "surface"})
         EXPECT_GT(rows["stage_reference_ms"][stage], 0) << stage;
 }

@@ -128,14 +128,14 @@ TEST_F(Glsl, lines_compile) {
     EXPECT_EQ(
         compile(
             "    LineRow before = line_start();\n"
-            "    StretchRow row = StretchRow(n[0], n[1], n[2]);\n"
+            "    StretchRow row = StretchRow(n[0], n[1], n[2], n[4]);\n"
             "    LineRow now = eliminate_stretch(before, x[i].xyz, x[i + 1].xyz, x[i].w, x[i + 1].w, n[3], row, h);\n"
             "    x[i].xyz += now.n * substitute_stretch(now, before.factor);\n"),
         "");
 }
 
 TEST_F(Glsl, tension_compiles) {
-    EXPECT_EQ(compile("    TearSide side = TearSide(n[0], n[1], n[2], n[3], n[4]);\n"
+    EXPECT_EQ(compile("    TearSide side = TearSide(n[0], n[1], n[2], n[3], n[4], n[5]);\n"
                       "    TearCoupling q = TearCoupling(n[0], n[1], n[2], n[3], n[4], n[5]);\n"
                       "    TearFlat laid = lay_flat(x[i].xyz, x[i + 1].xyz, x[i + 2].xyz, side, side);\n"
                       "    PlaneStress s = springs_stress(laid, side, side, side);\n"

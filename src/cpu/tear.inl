@@ -1,11 +1,11 @@
 // Finds the triangles of a cloth whose load may soon exceed a limit. Included by passes.inl.
 
 WEFT_FN TearSide load_side(const TearView& view, std::size_t side, std::size_t triangle) {
-    const float* at = view.sides + 5 * side * view.stride + triangle;
+    const float* at = view.sides + WEFT_TEAR_SIDE_NUMBERS * side * view.stride + triangle;
     const std::size_t stride = view.stride;
     TearSide loaded;
     loaded.rest = load(at), loaded.pull = load(at + stride), loaded.push = load(at + 2 * stride);
-    loaded.x = load(at + 3 * stride), loaded.y = load(at + 4 * stride);
+    loaded.x = load(at + 3 * stride), loaded.y = load(at + 4 * stride), loaded.straight = load(at + 5 * stride);
     return loaded;
 }
 

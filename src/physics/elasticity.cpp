@@ -17,6 +17,10 @@ double Elasticity::along(double cos2) const {
     return part(cos2 * cos2, warp) + part(sin2 * sin2, weft) + part(mixed, shear);
 }
 
+double Elasticity::eased(double of) const {
+    return of > straight ? straight + (of - straight) * WEFT_STRAIGHT_COMPLIANCE : of;
+}
+
 double Elasticity::reserve() const {
     return std::max(warp, weft) * tension;
 }
@@ -31,10 +35,12 @@ Elasticity elasticity_of(const StretchMaterial& material, float density, float e
     const auto strain = [](float stiffness) {
         return stiffness > 0 ? 1 / static_cast<double>(stiffness) : std::numeric_limits<double>::infinity();
     };
-    return {.warp = strain(material.stretch[0]),
-            .weft = strain(material.stretch[1]),
-            .shear = strain(material.shear),
-            .tension = 3 * static_cast<double>(density) * gravity * extent};
+    Elasticity elasticity{
+        .warp = strain(material.stretch[0]), .weft = strain(material.stretch[1]), .shear = strain(material.shear)};
+    const auto straight = [&](int k) { return double{material.stretch_limit[k]} * double{material.stretch[k]}; };
+    if (straight(0) > 0 && straight(1) > 0) elasticity.straight = std::max(straight(0), straight(1));
+    elasticity.tension = elasticity.eased(3 * static_cast<double>(density) * gravity * extent);
+    return elasticity;
 }
 
 namespace {

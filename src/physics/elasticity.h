@@ -4,6 +4,8 @@
 #include "mesh/topology.h"
 #include "physics/stretch/stretch.data.h"
 
+#include <limits>
+
 namespace weft {
 
 /// How a fabric stretches under tension, as strain per N/m. All zeros: inextensible.
@@ -14,7 +16,13 @@ struct Elasticity {
     /// this tension. Without that room they would take the load off the stretch constraints, from which the tension is
     /// measured.
     double tension = 0;
+    /// N/m, from which all threads are straight (`stretch_limit`): cloth then gives WEFT_STRAIGHT_COMPLIANCE times as
+    /// much.
+    double straight = std::numeric_limits<double>::infinity();
 
+    /// The tension at which cloth without `stretch_limit` would give as much as this cloth does under this one, or a
+    /// little more.
+    double eased(double of) const;
     /// Strain per N/m along a direction at this cos² to the warp.
     double along(double cos2) const;
     /// Strain of the softer thread direction under `tension`.

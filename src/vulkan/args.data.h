@@ -457,7 +457,11 @@ struct LimitArgs {
     float softest;  // N/m
     float model_tension;
     float stretched;  // strain per N/m
-    uint unused;
+    float straight_strain;  // solver/plan/tension.h
+    float straight;   // N/m: Elasticity::straight
+    uint unused0;
+    uint unused1;
+    uint unused2;
 };
 
 #ifdef __cplusplus

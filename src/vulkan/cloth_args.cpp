@@ -1,5 +1,7 @@
 #include "vulkan/cloth_args.h"
 
+#include "solver/plan/tension.h"
+
 #include <algorithm>
 
 namespace weft::vulkan {
@@ -96,7 +98,11 @@ LimitArgs ClothArgs::limit_args() const {
             .softest = static_cast<float>(softest),
             .model_tension = static_cast<float>(elastic.tension),
             .stretched = static_cast<float>(std::max(elastic.warp, elastic.weft)),
-            .unused = 0};
+            .straight_strain = straight_strain(model_.fabric),
+            .straight = static_cast<float>(std::min(elastic.straight, 1e30)),
+            .unused0 = 0,
+            .unused1 = 0,
+            .unused2 = 0};
 }
 
 FaceArgs ClothArgs::face_args() const {

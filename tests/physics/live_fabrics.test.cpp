@@ -12,15 +12,9 @@ namespace {
 Fabric heavy_and_soft() {
     Fabric fabric;
     fabric.body = {.density = 0.5f, .damping = 0.02f};
-    fabric.stretch = {.stretch = {300, 500}, .compression = {200, 400}, .shear = 20};
+    fabric.stretch = {.stretch = {300, 500}, .compression = {200, 400}, .shear = 20, .stretch_limit = {0.01f, 0.02f}};
     for (float& b : fabric.bend.bend) b = 1e-3f;
     return fabric;
-}
-
-Result<void> set_fabric(World& world, ClothId id, const Fabric& fabric) {
-    auto model = with_fabric(*world.model(id), fabric);
-    EXPECT_TRUE(model.ok() && *model);
-    return world.set_material(id, std::move(*model));
 }
 
 TEST(LiveFabrics, move_cloth_as_a_model_that_is_built_anew_does) {

@@ -25,7 +25,7 @@ TEST(Oscillator, has_the_period_and_decay_of_implicit_euler) {
             const vec3 start = x;
             predict(x, m, 1.0, vec3(0.0), 1e9, step);
             double lambda = 0;
-            project_stretch(x, anchor, 1.0, 0.0, lambda, StretchRow{1, 0.001, 0.001}, step);
+            project_stretch(x, anchor, 1.0, 0.0, lambda, StretchRow{1, 0.001, 0.001, WEFT_NEVER_STRAIGHT}, step);
             update_velocity(m, x, start, 1.0, 1e9, step);
             const double now = x.x - 1;
             if (crossings.size() >= 10 && now > peak) peak = now, peak_time = i * h;

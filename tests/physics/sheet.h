@@ -118,6 +118,12 @@ inline double sag(const World& world) {
     return -1 - lowest;
 }
 
+inline Result<void> set_fabric(World& world, ClothId id, const Fabric& fabric) {
+    auto model = with_fabric(*world.model(id), fabric);
+    EXPECT_TRUE(model.ok() && *model);
+    return world.set_material(id, std::move(*model));
+}
+
 /// All threads share small sheets too, so that tests of sharing need no large ones.
 inline World make_world(const WorldSettings& settings, CpuOptions options) {
     options.smallest_shared = 0;

@@ -228,7 +228,7 @@ double energy_in(const RowList& edges, const RowList& triangles, const std::vect
     double energy = 0;
     for (std::uint32_t r = 0; r < edges.size(); ++r) {
         const std::uint32_t* p = edges.particles.data() + std::size_t{2} * r;
-        const float* f = edges.fields.data() + std::size_t{3} * r;
+        const float* f = edges.fields.data() + std::size_t{edges.field_count} * r;
         const double longer = norm(x[p[1]] - x[p[0]]) - double{f[0]}, compliance = longer > 0 ? f[1] : f[2];
         if (compliance > 0) energy += longer * longer / (2 * compliance);
     }
@@ -309,8 +309,8 @@ TEST(MembraneRows, leave_a_grid_s_edges_what_they_have_along_the_threads) {
                                                                      }) -
                                                 topology.edges.begin());
         const float strip = rest.area_at_edge[e] / dot(along, along);
-        EXPECT_NEAR(edges.fields[3 * r + 1] * strip * (warp ? 1000 : 3000), 1, 1e-4);
-        EXPECT_NEAR(edges.fields[3 * r + 2] * strip * (warp ? 500 : 1500), 1, 1e-4);
+        EXPECT_NEAR(edges.fields[edges.field_count * r + 1] * strip * (warp ? 1000 : 3000), 1, 1e-4);
+        EXPECT_NEAR(edges.fields[edges.field_count * r + 2] * strip * (warp ? 500 : 1500), 1, 1e-4);
     }
     const RowList triangles = build_membrane(rest, material);
     EXPECT_EQ(triangles.size(), topology.triangles.size());

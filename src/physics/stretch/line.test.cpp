@@ -49,7 +49,8 @@ Line random_line(Random& random, std::size_t count, double compliance) {
         at = at + vec3(1, random.number(-0.3, 0.3), random.number(-0.3, 0.3));
     }
     for (std::size_t k = 0; k < count; ++k) {
-        line.rows.push_back({norm(line.x[k] - line.x[k + 1]) + random.number(-0.01, 0.01), compliance, compliance});
+        line.rows.push_back({norm(line.x[k] - line.x[k + 1]) + random.number(-0.01, 0.01), compliance, compliance,
+                             WEFT_NEVER_STRAIGHT});
     }
     line.lambda.assign(count, 0);
     return line;
@@ -119,7 +120,7 @@ TEST(StretchLine, brings_a_long_line_to_its_lengths_at_once) {
         line.x.push_back(vec3(0, -0.01 * static_cast<double>(k) - (k > 0 ? 1e-5 : 0), 0));
         line.w.push_back(k > 0 ? 1 : 0);
     }
-    line.rows.assign(count, StretchRow{0.01, 0, 0});
+    line.rows.assign(count, StretchRow{0.01, 0, 0, WEFT_NEVER_STRAIGHT});
     line.lambda.assign(count, 0);
     sweep = line;
     for (int i = 0; i < 5; ++i) line.solve(0.001);
@@ -148,7 +149,7 @@ TEST(StretchLine, converges_to_the_forces_of_its_springs) {
 TEST(StretchLine, goes_around_rows_without_stiffness) {
     Random random(5);
     Line line = random_line(random, 9, 0);
-    line.rows[4] = {line.rows[4].rest, -1, -1};
+    line.rows[4] = {line.rows[4].rest, -1, -1, WEFT_NEVER_STRAIGHT};
     Line left = line, right = line;
     left.rows.resize(4), left.lambda.resize(4);
     right.x.erase(right.x.begin(), right.x.begin() + 5), right.w.erase(right.w.begin(), right.w.begin() + 5);
@@ -169,7 +170,7 @@ TEST(StretchLine, stays_calm_between_pins_that_are_too_far_apart) {
             line.x.push_back(vec3((1 + strain) * static_cast<double>(k), k % 2 ? 0.01 : -0.01, 0));
             line.w.push_back(k == 0 || k == count ? 0 : 1);
         }
-        line.rows.assign(count, StretchRow{1, 0, 0});
+        line.rows.assign(count, StretchRow{1, 0, 0, WEFT_NEVER_STRAIGHT});
         line.lambda.assign(count, 0);
         double largest = 0;
         for (int i = 0; i < 200; ++i) {
@@ -189,8 +190,9 @@ TEST(StretchLine, survives_degenerate_input) {
                 float change = 0;
                 for (int k = 0; k < 4; ++k) {
                     const scalar::vec3 a(gap * static_cast<float>(k), 1, 1), b(gap * static_cast<float>(k + 1), 1, 1);
-                    const auto now = eliminate_stretch(before, a, b, w, 0.0f, 0.0f, {1, compliance, compliance},
-                                                       step_without_limits(1e-3f, 1e3f, 1e6f));
+                    const auto now =
+                        eliminate_stretch(before, a, b, w, 0.0f, 0.0f, {1, compliance, compliance, WEFT_NEVER_STRAIGHT},
+                                          step_without_limits(1e-3f, 1e3f, 1e6f));
                     change = substitute_stretch(now, change);
                     EXPECT_TRUE(std::isfinite(before.factor) && std::isfinite(change) && std::isfinite(now.n.x))
                         << w << ' ' << gap << ' ' << compliance;

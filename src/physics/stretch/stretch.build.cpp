@@ -24,6 +24,10 @@ Moduli without_shear(Moduli k, float shear) {
     return spring;
 }
 
+float inverse_or_0(float x) {
+    return x > 0 ? 1 / x : 0.0f;
+}
+
 StretchLaw::Compliances compliances_of(double stretched, double compressed, double least) {
     const auto of = [least](double stiffness) { return stiffness > least ? static_cast<float>(1 / stiffness) : -1.0f; };
     return {of(stretched), of(compressed)};
@@ -83,6 +87,7 @@ StretchLaw::StretchLaw(const StretchMaterial& material)
     : pull_(side_of(material.stretch, material.shear)),
       push_(side_of(material.compression, material.shear)),
       bias_(4 * material.shear),
+      inverse_limit_{inverse_or_0(material.stretch_limit[0]), inverse_or_0(material.stretch_limit[1])},
       inextensible_(material.inextensible) {}
 
 RowList build_stretch(const RestShape& rest, const StretchMaterial& material) {
@@ -102,7 +107,9 @@ RowList build_stretch(const RestShape& rest, const StretchMaterial& material) {
             rows.left_out.push_back(cos2);
             continue;
         }
-        rows.add({edge.a, edge.b}, {length_at_rest, compliances.stretched, compliances.compressed}, {cos2, strip});
+        rows.add({edge.a, edge.b},
+                 {length_at_rest, compliances.stretched, compliances.compressed, law.straight(cos2, length_at_rest)},
+                 {cos2, strip});
     }
     return rows;
 }
@@ -115,6 +122,7 @@ bool change_stretch(const RowsToChange& rows, const StretchMaterial& material) {
     const float* __restrict strip = cos2 + rows.stride;
     float* __restrict stretched = rows.fields + rows.stride;
     float* __restrict compressed = stretched + rows.stride;
+    float* __restrict straight = compressed + rows.stride;
     int without = 0;
     for (std::uint32_t row = 0; row < rows.stride; ++row) {
         const StretchLaw::Compliances at = law.at(cos2[row], strip[row]);
@@ -122,6 +130,7 @@ bool change_stretch(const RowsToChange& rows, const StretchMaterial& material) {
         without |= static_cast<int>(real) & static_cast<int>(at.stretched < 0) & static_cast<int>(at.compressed < 0);
         stretched[row] = real ? at.stretched : stretched[row];
         compressed[row] = real ? at.compressed : compressed[row];
+        straight[row] = real ? law.straight(cos2[row], rows.fields[row]) : straight[row];
     }
     return without == 0;
 }

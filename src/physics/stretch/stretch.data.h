@@ -6,7 +6,11 @@
 //   rest         m    length at which the edge is at rest
 //   compliance   m/N  inverse stiffness while the edge is longer than that
 //   compression  m/N  inverse stiffness while it is shorter
-#define WEFT_ROW_stretch(FIELD) FIELD(rest) FIELD(compliance) FIELD(compression)
+//   straight     m    length from which the compliance is WEFT_STRAIGHT_COMPLIANCE times that
+#define WEFT_ROW_stretch(FIELD) FIELD(rest) FIELD(compliance) FIELD(compression) FIELD(straight)
+
+#define WEFT_STRAIGHT_COMPLIANCE 0.02  // of an edge whose threads are straight, over that of the edge before
+#define WEFT_NEVER_STRAIGHT 1e15       // m
 
 #ifdef __cplusplus
 #include "base/parameter.h"
@@ -23,6 +27,7 @@ struct StretchMaterial {
     float stretch[2] = {4000, 4000};      ///< N/m, warp and weft
     float compression[2] = {4000, 4000};  ///< N/m, warp and weft
     float shear = 40;                     ///< N/m
+    float stretch_limit[2] = {0, 0};      ///< strain along warp and weft at which threads are straight; 0: none
     bool inextensible = false;            ///< every edge keeps its length: all compliances 0
     StretchModel model = StretchModel::edges;
 };
@@ -34,13 +39,15 @@ inline constexpr Parameter stretch_parameters[] = {
      .unit = "N/m", .what = "compressive stiffness along warp and weft"},
     {.key = "shear", .count = 1, .offset = offsetof(StretchMaterial, shear), .min = 0, .max = 1e9, .unit = "N/m",
      .what = "shear stiffness"},
+    {.key = "stretch_limit", .count = 2, .offset = offsetof(StretchMaterial, stretch_limit), .min = 0, .max = 10,
+     .what = "strain along warp and weft at which the threads are straight: beyond it edges are 50 times as stiff; 0: none"},
     {.key = "inextensible", .kind = ParameterKind::flag, .offset = offsetof(StretchMaterial, inextensible),
      .what = "keep the length of every edge, whatever the stiffnesses"},
     {.key = "stretch_model", .kind = ParameterKind::choice, .offset = offsetof(StretchMaterial, model),
      .what = "`edges`: springs along the edges, exact for pulls along warp and weft on grids; `membrane`: exact strain of "
              "each triangle, on any mesh and in any direction",
      .choices = "edges|membrane",
-     .choice_words = "springs along the edges|strain of each triangle; cannot tear"},
+     .choice_words = "springs along the edges|strain of each triangle"},
 };
 
 }  // namespace weft

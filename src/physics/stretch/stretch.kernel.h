@@ -1,4 +1,5 @@
-// Stretch: moves two ends toward their rest distance. C = |a - b| - rest.
+// Stretch: moves two ends toward their rest distance. C = |a - b| - rest. Beyond the length `straight` it is the spring
+// that has the same force there and WEFT_STRAIGHT_COMPLIANCE times the compliance.
 
 struct StretchRow { WEFT_ROW_stretch(WEFT_ROW_MEMBER) };
 
@@ -20,6 +21,9 @@ WEFT_FN StretchState measure_stretch(vec3 a, vec3 b, StretchRow row, Step step)
     s.len = sqrt(s.len2);
     s.c = s.len - row.rest;
     real compliance = select(s.c > real(0), row.compliance, row.compression);
+    mask straight = s.len > row.straight;
+    s.c = s.c - select(straight, (row.straight - row.rest) * (real(1) - real(WEFT_STRAIGHT_COMPLIANCE)), real(0));
+    compliance = compliance * select(straight, real(WEFT_STRAIGHT_COMPLIANCE), real(1));
     s.alpha = compliance * step.inv_h2;
     s.slack = compliance < real(0);
     return s;
@@ -47,7 +51,8 @@ WEFT_FN void damp_stretch(inout_(vec3) va, inout_(vec3) vb, vec3 a, vec3 b, real
 {
     vec3 d = a - b;
     real len2 = dot(d, d);
-    real compliance = select(len2 > row.rest * row.rest, row.compliance, row.compression);
+    real compliance = select(len2 > row.rest * row.rest, row.compliance, row.compression) *
+                      select(len2 > row.straight * row.straight, real(WEFT_STRAIGHT_COMPLIANCE), real(1));
     real w = wa + wb;
     mask able = w > real(0) && len2 > real(1e-20) && !(compliance < real(0));
     real s = select(able, -dot(d, va - vb) / ((w + compliance / viscous) * len2), real(0));

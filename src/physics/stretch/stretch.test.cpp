@@ -11,7 +11,7 @@ using reference::StretchRow;
 TEST(Stretch, leaves_an_edge_at_rest_alone) {
     vec3 a(0.25, 1, -2), b(0.25, 1, -1.5);
     double lambda = 0;
-    reference::project_stretch(a, b, 3, 5, lambda, StretchRow{0.5, 1e-3, 1e-3}, make_step(0.01));
+    reference::project_stretch(a, b, 3, 5, lambda, StretchRow{0.5, 1e-3, 1e-3, WEFT_NEVER_STRAIGHT}, make_step(0.01));
     EXPECT_EQ(norm(a - vec3(0.25, 1, -2)), 0);
     EXPECT_EQ(lambda, 0);
 }
@@ -23,7 +23,7 @@ TEST(Stretch, brings_a_hard_edge_to_its_length_and_keeps_the_center_of_mass) {
         const double wa = random.number(0, 10), wb = random.number(0.01, 10), rest = random.number(0.1, 2);
         const vec3 a0 = a, b0 = b;
         double lambda = 0;
-        reference::project_stretch(a, b, wa, wb, lambda, StretchRow{rest, 0, 0}, make_step(0.01));
+        reference::project_stretch(a, b, wa, wb, lambda, StretchRow{rest, 0, 0, WEFT_NEVER_STRAIGHT}, make_step(0.01));
         EXPECT_NEAR(norm(a - b), rest, 1e-12);
         // w_b Δa + w_a Δb = 0: momentum; Δ along the edge: angular momentum.
         EXPECT_LT(norm((a - a0) * wb + (b - b0) * wa), 1e-12);
@@ -39,7 +39,7 @@ TEST(Stretch, moves_along_the_gradient) {
         const double rest = norm(a - b) + 0.25;
         double lambda = 0;
         const reference::Step step = make_step(0.01);
-        reference::project_stretch(a, b, 2, 3, lambda, StretchRow{rest, 1e-4, 1e-4}, step);
+        reference::project_stretch(a, b, 2, 3, lambda, StretchRow{rest, 1e-4, 1e-4, WEFT_NEVER_STRAIGHT}, step);
         // Δx_i = w_i ∇_i C Δλ
         const vec3 gradients[2] = {(a - points[0]) * (1 / (2 * lambda)), (b - points[1]) * (1 / (3 * lambda))};
         expect_gradient(
@@ -53,7 +53,8 @@ TEST(Stretch, converges_to_the_force_of_its_spring) {
     vec3 a(0, 0, 0), b(1.2, 0, 0);
     double lambda = 0;
     const reference::Step step = make_step(0.02);
-    for (int i = 0; i < 50; ++i) reference::project_stretch(a, b, 1, 1, lambda, StretchRow{1, 0.002, 0.01}, step);
+    for (int i = 0; i < 50; ++i)
+        reference::project_stretch(a, b, 1, 1, lambda, StretchRow{1, 0.002, 0.01, WEFT_NEVER_STRAIGHT}, step);
     EXPECT_NEAR(-lambda * step.inv_h2, (norm(a - b) - 1) / 0.002, 1e-9);
 }
 
@@ -62,19 +63,44 @@ TEST(Stretch, has_its_own_stiffness_against_compression) {
         vec3 a(0, 0, 0), b(length, 0, 0);
         double lambda = 0;
         const reference::Step step = make_step(0.01);
-        reference::project_stretch(a, b, 1, 1, lambda, StretchRow{1, 1e-4, 5e-4}, step);
+        reference::project_stretch(a, b, 1, 1, lambda, StretchRow{1, 1e-4, 5e-4, WEFT_NEVER_STRAIGHT}, step);
         EXPECT_NEAR(lambda, -(length - 1) / (2 + (length > 1 ? 1e-4 : 5e-4) * step.inv_h2), 1e-12);
     }
+}
+
+// The force grows by stiffness times strain up to the limit, and 50 times as much beyond it.
+TEST(Stretch, is_stiffer_from_the_length_at_which_threads_are_straight) {
+    const StretchRow row{1, 0.002, 0.002, 1.2};
+    const auto expected = [](double length) {
+        return length < 1.2 ? (length - 1) / 0.002 : (0.2 + 50 * (length - 1.2)) / 0.002;
+    };
+    for (const double start : {0.8, 1.1, 1.19, 1.21, 1.5}) {
+        for (const double weight : {0.0, 1.0}) {
+            vec3 a(0, 0, 0), b(start, 0, 0);
+            double lambda = 0;
+            const reference::Step step = make_step(0.02);
+            for (int i = 0; i < 200; ++i) reference::project_stretch(a, b, weight, weight, lambda, row, step);
+            if (weight > 0) {
+                EXPECT_NEAR(-lambda * step.inv_h2, expected(norm(a - b)), 1e-9) << start;
+            }
+        }
+    }
+    // Half of the way, the spring takes up half of the load.
+    vec3 a(0, 0, 0), b(1.3, 0, 0);
+    double lambda = 0;
+    const reference::Step step = make_step(0.1);
+    reference::project_stretch(a, b, 0, 1e6, lambda, row, step);
+    EXPECT_NEAR(b.x, 1 + 0.2 * 0.98, 1e-4) << "toward the rest length of the stiff spring";
 }
 
 TEST(Stretch, without_stiffness_against_compression_is_a_string) {
     vec3 a(0, 0, 0), b(0.5, 0, 0);
     double lambda = 0;
-    reference::project_stretch(a, b, 1, 1, lambda, StretchRow{1, 0, -1}, make_step(0.01));
+    reference::project_stretch(a, b, 1, 1, lambda, StretchRow{1, 0, -1, WEFT_NEVER_STRAIGHT}, make_step(0.01));
     EXPECT_EQ(b.x - a.x, 0.5);
     // A later iteration corrects what an earlier one pulled too far.
     lambda = -0.05;
-    reference::project_stretch(a, b, 1, 1, lambda, StretchRow{1, 0, -1}, make_step(0.01));
+    reference::project_stretch(a, b, 1, 1, lambda, StretchRow{1, 0, -1, WEFT_NEVER_STRAIGHT}, make_step(0.01));
     EXPECT_NEAR(b.x - a.x, 0.6, 1e-12);
     EXPECT_NEAR(lambda, 0, 1e-12);
 }
@@ -88,7 +114,7 @@ TEST(Stretch, survives_degenerate_input) {
                 scalar::vec3 a(1, 1, 1), b(1 + gap, 1, 1);
                 const scalar::vec3 a0 = a;
                 float lambda = 0;
-                project_stretch(a, b, w, 0.0f, lambda, {1, compliance, compliance}, step);
+                project_stretch(a, b, w, 0.0f, lambda, {1, compliance, compliance, WEFT_NEVER_STRAIGHT}, step);
                 EXPECT_TRUE(std::isfinite(a.x) && std::isfinite(b.x) && std::isfinite(lambda))
                     << w << ' ' << gap << ' ' << compliance;
                 if (w == 0) {
@@ -108,11 +134,13 @@ TEST(Stretch, damping_takes_relative_motion_along_the_edge_and_nothing_else) {
         const vec3 along = (a - b) * (1 / norm(a - b));
         vec3 va = drift + reference::cross(spin, a), vb = drift + reference::cross(spin, b);
         const vec3 va0 = va, vb0 = vb;
-        reference::damp_stretch(va, vb, a, b, wa, wb, StretchRow{1, compliance, compliance}, viscous);
+        reference::damp_stretch(va, vb, a, b, wa, wb, StretchRow{1, compliance, compliance, WEFT_NEVER_STRAIGHT},
+                                viscous);
         EXPECT_LT(norm(va - va0) + norm(vb - vb0), 1e-12) << "a rigid motion is left alone";
 
         va = va0 + along * 2.0;
-        reference::damp_stretch(va, vb, a, b, wa, wb, StretchRow{1, compliance, compliance}, viscous);
+        reference::damp_stretch(va, vb, a, b, wa, wb, StretchRow{1, compliance, compliance, WEFT_NEVER_STRAIGHT},
+                                viscous);
         // A dashpot of τ/α, implicit over the step: what is left is 1/(1 + (τ/α) h W).
         EXPECT_NEAR(reference::dot(along, va - vb), 2 / (1 + viscous / compliance * (wa + wb)), 1e-12);
         EXPECT_LT(norm((va - va0 - along * 2.0) * wb + (vb - vb0) * wa), 1e-12) << "momentum";
@@ -139,7 +167,7 @@ TEST(StretchRows, a_sheet_is_as_stiff_as_its_fabric) {
     for (std::uint32_t r = 0; r < rows.size(); ++r) {
         const Vec3 a = topology->rest_positions[rows.particles[2 * r]],
                    b = topology->rest_positions[rows.particles[2 * r + 1]];
-        const double k = 1 / rows.fields[3 * r + 1], length = rows.fields[3 * r];
+        const double k = 1 / rows.fields[rows.field_count * r + 1], length = rows.fields[rows.field_count * r];
         const bool inside = std::abs(a.x + b.x) < 0.9 && std::abs(a.z + b.z) < 0.9;
         if (!inside) continue;
         if (a.z == b.z) k1 = k * length * length / (cell * cell);  // two half cells at each edge
@@ -155,9 +183,32 @@ TEST(StretchRows, inextensible_means_no_compliance_anywhere) {
     const RowList rows = grid_rows({.inextensible = true});
     ASSERT_EQ(rows.size(), 56u);  // 2·20 along the axes, 16 diagonals
     for (std::uint32_t r = 0; r < rows.size(); ++r) {
-        EXPECT_EQ(rows.fields[3 * r + 1], 0);
-        EXPECT_EQ(rows.fields[3 * r + 2], 0);
+        EXPECT_EQ(rows.fields[rows.field_count * r + 1], 0);
+        EXPECT_EQ(rows.fields[rows.field_count * r + 2], 0);
     }
+}
+
+TEST(StretchRows, are_straight_at_the_limit_of_their_direction) {
+    const auto strains = [](float warp, float weft) {
+        const RowList rows = grid_rows({.stretch = {100, 100}, .shear = 30, .stretch_limit = {warp, weft}});
+        const TriangleMesh mesh = make_grid({1, 1}, {5, 5}, GridDiagonal::alternating);
+        const auto topology = build_topology(mesh);
+        std::array<double, 3> found{};
+        for (std::uint32_t r = 0; r < rows.size(); ++r) {
+            const float* const fields = &rows.fields[rows.field_count * r];
+            const Vec3 along =
+                topology->rest_positions[rows.particles[2 * r + 1]] - topology->rest_positions[rows.particles[2 * r]];
+            const int kind = along.z == 0 ? 0 : along.x == 0 ? 1 : 2;
+            found[kind] = fields[3] / double{fields[0]} - 1;
+        }
+        return found;
+    };
+    const auto both = strains(0.2f, 0.5f);
+    EXPECT_NEAR(both[0], 0.2, 1e-6);
+    EXPECT_NEAR(both[1], 0.5, 1e-6);
+    EXPECT_NEAR(1 / both[2], (1 / 0.2 + 1 / 0.5) / 2, 1e-5);
+    EXPECT_GT(strains(0.2f, 0)[1], 1e12) << "no limit along the weft";
+    for (const double none : strains(0, 0)) EXPECT_GT(none, 1e12);
 }
 
 TEST(StretchRows, stiffness_zero_leaves_rows_out) {
@@ -166,7 +217,7 @@ TEST(StretchRows, stiffness_zero_leaves_rows_out) {
         << "no diagonals";
     const RowList strings = grid_rows({.stretch = {1000, 1000}, .compression = {0, 0}, .shear = 0});
     EXPECT_EQ(strings.size(), 40u);
-    for (std::uint32_t r = 0; r < strings.size(); ++r) EXPECT_LT(strings.fields[3 * r + 2], 0);
+    for (std::uint32_t r = 0; r < strings.size(); ++r) EXPECT_LT(strings.fields[strings.field_count * r + 2], 0);
 }
 
 }  // namespace

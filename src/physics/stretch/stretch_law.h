@@ -25,6 +25,13 @@ class StretchLaw {
         return {compliance(pull_, cos2, strip), compliance(push_, cos2, strip)};
     }
 
+    /// m: length from which the threads of an edge are straight. `rest`: m, its length at rest.
+    float straight(float cos2, float rest) const {
+        const float inverse = cos2 * inverse_limit_[0] + (1 - cos2) * inverse_limit_[1];
+        const float length = rest * (1 + 1 / inverse);
+        return inverse > 0 && length < never_straight ? length : never_straight;
+    }
+
     /// N/m: the softer one of the springs along warp and weft. Diagonals carry the rest of the fabric's stiffness.
     double softest_spring() const { return pull_.warp < pull_.weft ? pull_.warp : pull_.weft; }
 
@@ -40,8 +47,11 @@ class StretchLaw {
         return stiffness <= side.least ? -1.0f : value;
     }
 
+    static constexpr auto never_straight = static_cast<float>(WEFT_NEVER_STRAIGHT);
+
     Side pull_, push_;
-    float bias_;  ///< N/m
+    float bias_;              ///< N/m
+    float inverse_limit_[2];  ///< 0: none
     bool inextensible_;
 };
 

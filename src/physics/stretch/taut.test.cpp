@@ -15,7 +15,7 @@ TEST(TautMass, is_the_tension_times_the_square_of_the_time_over_the_length) {
     for (int i = 0; i < 100; ++i) {
         const double rest = random.number(0.01, 1), compliance = random.number(1e-5, 1e-2),
                      h = random.number(1e-4, 1e-2), w = random.number(0, 100);
-        const StretchRow row{rest, compliance, 1};
+        const StretchRow row{rest, compliance, 1, WEFT_NEVER_STRAIGHT};
         vec3 a(0, 0, 0), b(0, rest * random.number(1.001, 2), 0);
         double lambda = 0;
         reference::project_stretch(a, b, w, w, lambda, row, make_step(h));
@@ -25,10 +25,10 @@ TEST(TautMass, is_the_tension_times_the_square_of_the_time_over_the_length) {
 }
 
 TEST(TautMass, is_none_of_an_edge_that_does_not_pull) {
-    EXPECT_EQ(reference::taut_mass({1, 1e-4, 1e-4}, 0), 0);     // at rest
-    EXPECT_EQ(reference::taut_mass({1, 1e-4, 1e-4}, 1e-3), 0);  // pushes
-    EXPECT_EQ(reference::taut_mass({0, 1e-4, 1e-4}, -1), 0);    // padding
-    EXPECT_GT(reference::taut_mass({1, 1e-4, 1e-4}, -1e-3), 0);
+    EXPECT_EQ(reference::taut_mass({1, 1e-4, 1e-4, WEFT_NEVER_STRAIGHT}, 0), 0);     // at rest
+    EXPECT_EQ(reference::taut_mass({1, 1e-4, 1e-4, WEFT_NEVER_STRAIGHT}, 1e-3), 0);  // pushes
+    EXPECT_EQ(reference::taut_mass({0, 1e-4, 1e-4, WEFT_NEVER_STRAIGHT}, -1), 0);    // padding
+    EXPECT_GT(reference::taut_mass({1, 1e-4, 1e-4, WEFT_NEVER_STRAIGHT}, -1e-3), 0);
 }
 
 TEST(TautMass, adds_at_most_256_times_the_mass_of_a_particle) {

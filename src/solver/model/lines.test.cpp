@@ -69,7 +69,7 @@ void expect_sound(const Packed& packed) {
         const auto found = row_between.find({slot(0, row), slot(1, row)});
         ASSERT_NE(found, row_between.end());
         ++seen[found->second];
-        EXPECT_EQ(table.fields[row], rows.fields[3 * std::size_t{found->second}]);
+        EXPECT_EQ(table.fields[row], rows.fields[rows.field_count * std::size_t{found->second}]);
     }
     for (const std::uint32_t count : seen) EXPECT_EQ(count, 1u);
 }

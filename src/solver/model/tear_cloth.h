@@ -84,8 +84,8 @@ WEFT_FN uint tear_vertex_of(TearCloth c, uint particle) {
 
 WEFT_FN TearSide tear_side(TearCloth c, uint triangle, uint k) {
     const std::size_t stride = c.model.tear_law->stride;
-    const float* at = c.model.tear_law->sides.data() + 5 * k * stride + triangle;
-    return {at[0], at[stride], at[2 * stride], at[3 * stride], at[4 * stride]};
+    const float* at = c.model.tear_law->sides.data() + std::size_t{WEFT_TEAR_SIDE_NUMBERS} * k * stride + triangle;
+    return {at[0], at[stride], at[2 * stride], at[3 * stride], at[4 * stride], at[5 * stride]};
 }
 WEFT_FN bool tear_has_couplings(TearCloth c) {
     return !c.model.tear_law->couplings.empty();
@@ -257,7 +257,7 @@ WEFT_OUTLINED_FN void tear_part_stiffness(TearCloth c, uint row) {
     c.arrays.halves_used[row / lane_padding] = 1;
     const float cos2 = rows.geometry[row], strip = rows.geometry[stride + row],
                 first_part = c.model.tears->first_part[row];
-    rows.fields[second] = rows.fields[row];
+    rows.fields[second] = rows.fields[row], rows.fields[3 * stride + second] = rows.fields[3 * stride + row];
     const auto set = [&](std::size_t at, float part) {
         const StretchLaw::Compliances compliances =
             half_of_edge(*c.model.tears, c.stretch, row, at == row, cos2, strip * part);

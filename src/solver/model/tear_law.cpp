@@ -25,7 +25,7 @@ class LawBuilder {
           faces_(model.tears->vertices),
           stress_(make_stress_table(model, {faces_.data(), model.face_stride, model.triangle_count})) {
         law_.stride = model.face_stride;
-        law_.sides.resize(std::size_t{15} * law_.stride);
+        law_.sides.resize(std::size_t{3 * WEFT_TEAR_SIDE_NUMBERS} * law_.stride);
         if (stress_.membranes) law_.couplings.resize(std::size_t{6} * law_.stride);
         law_.area.resize(law_.stride);
         law_.entries.resize(model.tears->entries.size());
@@ -62,11 +62,11 @@ class LawBuilder {
                 const std::uint32_t c = face.corners[other], d = face.corners[(other + 1) % 3];
                 if (!(a == c && b == d) && !(a == d && b == c)) continue;
                 same[k] = other;
-                const auto& [rest, pull, push, x, y] = face.sides[other];
+                const auto& [rest, pull, push, x, y, straight] = face.sides[other];
                 const double way = a == c ? 1 : -1;  // the side may run the other way
-                const std::array numbers{rest, pull, push, way * x, way * y};
-                for (std::uint32_t i = 0; i < 5; ++i)
-                    law_.sides[std::size_t{5 * k + i} * law_.stride + t] = single(numbers[i]);
+                const std::array numbers{rest, pull, push, way * x, way * y, straight};
+                for (std::uint32_t i = 0; i < WEFT_TEAR_SIDE_NUMBERS; ++i)
+                    law_.sides[std::size_t{WEFT_TEAR_SIDE_NUMBERS * k + i} * law_.stride + t] = single(numbers[i]);
             }
         }
         if (stress_.membranes) add_coupling(face, same);

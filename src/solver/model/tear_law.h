@@ -20,8 +20,8 @@ inline constexpr float watched_part_of_load = 0.5f;
 /// ClothModel::faces, entries as in TearTable.
 struct TearLaw {
     std::uint32_t stride = 0;  ///< of triangles
-    /// [(5 · side + number) · stride + triangle]: the numbers of TearSide in their order. Side k runs from corner k to
-    /// the next one. A triangle without stress has sides of length 0.
+    /// [(WEFT_TEAR_SIDE_NUMBERS · side + number) · stride + triangle]: the numbers of TearSide in their order. Side k
+    /// runs from corner k to the next one. A triangle without stress has sides of length 0.
     AlignedVector<float> sides;
     /// [number · stride + triangle]: the numbers of TearCoupling in their order. Empty unless the cloth has membranes.
     AlignedVector<float> couplings;

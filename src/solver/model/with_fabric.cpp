@@ -14,7 +14,8 @@ namespace {
 
 bool same_stiffness(const StretchMaterial& a, const StretchMaterial& b) {
     return std::ranges::equal(a.stretch, b.stretch) && std::ranges::equal(a.compression, b.compression) &&
-           a.shear == b.shear && a.inextensible == b.inextensible && a.model == b.model;
+           std::ranges::equal(a.stretch_limit, b.stretch_limit) && a.shear == b.shear &&
+           a.inextensible == b.inextensible && a.model == b.model;
 }
 
 bool same_tearing(const TearMaterial& a, const TearMaterial& b) {
@@ -115,8 +116,10 @@ Result<std::shared_ptr<const ClothModel>> with_fabric(const ClothModel& from, co
 }
 
 bool limits_differ(const Fabric& a, const Fabric& b) {
-    return !std::ranges::equal(a.stretch.stretch, b.stretch.stretch) || a.stretch.shear != b.stretch.shear ||
-           a.stretch.inextensible != b.stretch.inextensible || a.body.density != b.body.density;
+    return !std::ranges::equal(a.stretch.stretch, b.stretch.stretch) ||
+           !std::ranges::equal(a.stretch.stretch_limit, b.stretch.stretch_limit) ||
+           a.stretch.shear != b.stretch.shear || a.stretch.inextensible != b.stretch.inextensible ||
+           a.body.density != b.body.density;
 }
 
 }  // namespace weft

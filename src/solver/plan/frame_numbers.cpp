@@ -49,10 +49,14 @@ double lambda_seconds(const WorldPlan& plan, double dt) {
 
 FrameLimits frame_limits(const ClothModel& model, std::span<const float> lambda, double substep_seconds,
                          std::span<const Vec4> positions) {
-    const float tension = tension_in(model.table(ConstraintKind::stretch), lambda, substep_seconds, model.fabric);
+    const float measured = tension_in(model.table(ConstraintKind::stretch), lambda, substep_seconds, model.fabric);
     // Limits always allow for the model's tension. The strain between pins includes the strain due to tension, so that
     // is divided out.
     const Elasticity& elastic = model.elasticity;
+    const auto straight = static_cast<float>(std::min(elastic.straight, 1e30));
+    const float tension = measured > straight
+                              ? straight + (measured - straight) * static_cast<float>(WEFT_STRAIGHT_COMPLIANCE)
+                              : measured;
     FrameLimits limits;
     limits.tension = std::max(0.0f, tension - static_cast<float>(elastic.tension));
     const float stretched = static_cast<float>(std::max(elastic.warp, elastic.weft)) * limits.tension;

@@ -18,6 +18,8 @@ constexpr std::array<float, bins_per_doubling> bin_starts{1, 1.18920712f, 1.4142
 constexpr float least = 1e-5f, most = 100;  // the last bin begins at 9
 constexpr std::uint32_t bin_count = 80;
 constexpr std::uint32_t mantissa_bits = 23;
+constexpr auto compliance_of_straight = static_cast<float>(WEFT_STRAIGHT_COMPLIANCE);
+constexpr float no_straight_strain = 1e15f;
 
 std::uint32_t bin_of(float strain) {
     if (!(strain > least)) return 0;
@@ -36,6 +38,11 @@ float start_of(std::uint32_t bin) {
 }
 
 }  // namespace
+
+float straight_strain(const Fabric& fabric) {
+    const float both = std::min(fabric.stretch.stretch_limit[0], fabric.stretch.stretch_limit[1]);
+    return both > 0 ? std::max(fabric.stretch.stretch_limit[0], fabric.stretch.stretch_limit[1]) : no_straight_strain;
+}
 
 float tension_in(const ConstraintTable& stretch, std::span<const float> lambda, double substep_seconds,
                  const Fabric& fabric) {
@@ -64,7 +71,9 @@ float tension_in(const ConstraintTable& stretch, std::span<const float> lambda, 
     // The upper end of the bin.
     const float strain = bin <= 1 ? 0 : start_of(bin);
     // At a large stretch, threads that turn toward the pull carry load too, and limits must not take it.
-    return strain * (1 + strain) * static_cast<float>(softest);
+    const float straight = straight_strain(fabric);
+    const float of_cloth = strain > straight ? straight + (strain - straight) * compliance_of_straight : strain;
+    return strain * (1 + of_cloth) * static_cast<float>(softest);
 }
 
 }  // namespace weft

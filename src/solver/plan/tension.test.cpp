@@ -8,7 +8,7 @@ namespace {
 // Tension of 1 cm constraints under `tension` N/m. If `spared` > 0, only every `spared`-th one is under tension.
 float tension_under(double tension, std::uint32_t spared = 0, const Fabric& fabric = {}) {
     RowList rows = make_rows(ConstraintKind::stretch);
-    for (std::uint32_t i = 0; i < 4000; ++i) rows.add({2 * i, 2 * i + 1}, {0.01f, 1e-4f, 1e-4f});
+    for (std::uint32_t i = 0; i < 4000; ++i) rows.add({2 * i, 2 * i + 1}, {0.01f, 1e-4f, 1e-4f, WEFT_NEVER_STRAIGHT});
     const ConstraintTable table = pack_rows(ConstraintKind::stretch, rows, 8000);
     constexpr double h = 1.0 / 600;
     std::vector<float> lambda(table.stride);

@@ -75,7 +75,12 @@ void run_limits()
         while (bin > 1u && 20u * (above + bins[bin - 1u]) <= count) above += bins[--bin];
         // Upper end of the highest bin below the excluded 5 %.
         float strain = bin <= 1u ? 0.0 : start_of(bin);
-        float tension = max(0.0, strain * (1.0 + strain) * limit_args.at.softest - limit_args.at.model_tension);
+        float straight = limit_args.at.straight_strain;
+        float of_cloth = strain > straight ? straight + (strain - straight) * WEFT_STRAIGHT_COMPLIANCE : strain;
+        float measured = strain * (1.0 + of_cloth) * limit_args.at.softest;
+        straight = limit_args.at.straight;
+        float eased = measured > straight ? straight + (measured - straight) * WEFT_STRAIGHT_COMPLIANCE : measured;
+        float tension = max(0.0, eased - limit_args.at.model_tension);
         limit_args.at.limits.at.tension = tension;
         limit_args.at.limits.at.allowed = max(1.0, (1.0 + uintBitsToFloat(strain_bits)) / (1.0 + limit_args.at.stretched * tension));
     }

@@ -49,7 +49,7 @@ StretchRow line_row(uint r)
 {
     uint stride = line_args.at.stride;
     return StretchRow(line_args.at.fields.at[r], line_args.at.fields.at[stride + r],
-                      line_args.at.fields.at[2u * stride + r]);
+                      line_args.at.fields.at[2u * stride + r], line_args.at.fields.at[3u * stride + r]);
 }
 
 // Writes direction and weight to the scratch memory, where couple_row() of the next row reads them.

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "vulkan/shaders/primitives/tiles.glsl"
 #include "vulkan/measures/args.data.h"
+#include "physics/stretch/stretch.data.h"
 
 layout(push_constant) uniform Push { WEFT_ARGS args; };
 

@@ -63,10 +63,17 @@ Term term_of(uint row)
     Two left = sum_of(now, -rest);
     float compliance = args.fields.at[(left.high > 0.0 ? 1u : 2u) * args.stride + row];
     if (compliance < 0.0) return Term(0.0, 0u);  // no stiffness on this side
+    Two inv_h2 = Two(args.inv_h2, args.inv_h2_low);
+    float straight = args.fields.at[3u * args.stride + row];
+    if (now > straight) {
+        Two shift = multiply(sum_of(straight, -rest), 1.0 - WEFT_STRAIGHT_COMPLIANCE);
+        left = add(left, Two(-shift.high, -shift.low));
+        inv_h2 = multiply(inv_h2, WEFT_STRAIGHT_COMPLIANCE);
+    }
     if (args.inv_h2 > 0.0) {
         float lambda = args.lambda.at[row];
         if (!is_finite(lambda)) return Term(0.0, WEFT_NAN);
-        left = add(left, multiply(multiply(Two(args.inv_h2, args.inv_h2_low), compliance), lambda));
+        left = add(left, multiply(multiply(inv_h2, compliance), lambda));
     }
     return deviation(value(left) / rest);
 }

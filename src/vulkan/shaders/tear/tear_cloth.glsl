@@ -36,9 +36,9 @@ uint tear_vertex_of(TearCloth c, uint particle) { return tear_data.vertex.at[par
 float tear_side_number(uint triangle, uint i) { return tear_data.sides.at[i * tear_data.stride + triangle]; }
 TearSide tear_side(TearCloth c, uint triangle, uint k)
 {
-    return TearSide(tear_side_number(triangle, 5u * k), tear_side_number(triangle, 5u * k + 1u),
-                    tear_side_number(triangle, 5u * k + 2u), tear_side_number(triangle, 5u * k + 3u),
-                    tear_side_number(triangle, 5u * k + 4u));
+    uint i = WEFT_TEAR_SIDE_NUMBERS * k;
+    return TearSide(tear_side_number(triangle, i), tear_side_number(triangle, i + 1u), tear_side_number(triangle, i + 2u),
+                    tear_side_number(triangle, i + 3u), tear_side_number(triangle, i + 4u), tear_side_number(triangle, i + 5u));
 }
 bool tear_has_couplings(TearCloth c) { return tear_data.has_couplings != 0u; }
 float tear_coupling_number(uint triangle, uint i) { return tear_data.couplings.at[i * tear_data.stride + triangle]; }
@@ -162,6 +162,7 @@ void tear_part_stiffness(TearCloth c, uint row)
 {
     uint stride = tear_kind_at(WEFT_TEAR_STRETCH).stride, second = tear_data.halves + row;
     tear_kind_at(WEFT_TEAR_STRETCH).fields.at[second] = tear_kind_at(WEFT_TEAR_STRETCH).fields.at[row];
+    tear_kind_at(WEFT_TEAR_STRETCH).fields.at[3u * stride + second] = tear_kind_at(WEFT_TEAR_STRETCH).fields.at[3u * stride + row];
     for (uint k = 0u; k < 2u; ++k) {
         tear_kind_at(WEFT_TEAR_STRETCH).fields.at[(k + 1u) * stride + row] = tear_data.half_fields.at[4u * row + k];
         tear_kind_at(WEFT_TEAR_STRETCH).fields.at[(k + 1u) * stride + second] = tear_data.half_fields.at[4u * row + 2u + k];
