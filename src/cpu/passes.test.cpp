@@ -222,9 +222,7 @@ struct Newton {
         std::vector<std::vector<double>> system(n, std::vector<double>(n + 1));
         for (std::size_t i = 0; i < n; ++i) {
             const double w = weight(i, 0) + weight(i, 1), lambda = f.lambda[rows[i]];
-            const double straight = f.table.fields[3 * f.table.stride + rows[i]];
-            const double length = testing_kernels::norm(from_other(i, 0)), of_straight = length > straight ? 0.02 : 1;
-            const double alpha = of_straight * f.table.fields[f.table.stride + rows[i]] / (double{step} * step);
+            const double alpha = f.table.fields[f.table.stride + rows[i]] / (double{step} * step);
             if (w == 0 || alpha < 0) {  // a slack constraint undoes its lambda
                 system[i][i] = 1, system[i][n] = w > 0 ? -lambda : 0;
                 continue;
@@ -236,7 +234,7 @@ struct Newton {
                 }
             }
             const double rest = f.table.fields[rows[i]];
-            const double out = length - rest - (straight - rest) * (length > straight ? 0.98 : 0);
+            const double out = testing_kernels::norm(from_other(i, 0)) - rest;
             system[i][i] += 1e-4 * w + std::max(alpha, w * std::min(0.1, std::abs(out) / rest));
             system[i][n] = -(out + alpha * lambda);
         }

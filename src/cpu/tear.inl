@@ -5,7 +5,7 @@ WEFT_FN TearSide load_side(const TearView& view, std::size_t side, std::size_t t
     const std::size_t stride = view.stride;
     TearSide loaded;
     loaded.rest = load(at), loaded.pull = load(at + stride), loaded.push = load(at + 2 * stride);
-    loaded.x = load(at + 3 * stride), loaded.y = load(at + 4 * stride), loaded.straight = load(at + 5 * stride);
+    loaded.x = load(at + 3 * stride), loaded.y = load(at + 4 * stride), loaded.play = load(at + 5 * stride);
     return loaded;
 }
 

@@ -18,7 +18,7 @@ double Elasticity::along(double cos2) const {
 }
 
 double Elasticity::eased(double of) const {
-    return of > straight ? straight + (of - straight) * WEFT_STRAIGHT_COMPLIANCE : of;
+    return of > straight ? straight + (of - straight) / WEFT_STRAIGHT_STIFFNESS : of;
 }
 
 double Elasticity::reserve() const {

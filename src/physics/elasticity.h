@@ -16,8 +16,8 @@ struct Elasticity {
     /// this tension. Without that room they would take the load off the stretch constraints, from which the tension is
     /// measured.
     double tension = 0;
-    /// N/m, from which all threads are straight (`stretch_limit`): cloth then gives WEFT_STRAIGHT_COMPLIANCE times as
-    /// much.
+    /// N/m: the tension at `stretch_limit` without what stiffens the cloth before. Beyond it cloth is at least
+    /// WEFT_STRAIGHT_STIFFNESS times as stiff, if both directions have a limit.
     double straight = std::numeric_limits<double>::infinity();
 
     /// The tension at which cloth without `stretch_limit` would give as much as this cloth does under this one, or a

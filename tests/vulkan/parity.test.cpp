@@ -248,7 +248,7 @@ TEST_P(Parity, of_rows_that_run_one_after_another) {
     // All constraints share one particle, so each has its own color.
     RandomState state = random_points(7, false);
     RowList rows = make_rows(ConstraintKind::stretch);
-    for (std::uint32_t r = 1; r < 200; ++r) rows.add({0, r}, {0.5f, 1e-6f, 1e-6f, 0.6f});
+    for (std::uint32_t r = 1; r < 200; ++r) rows.add({0, r}, {0.5f, 1e-6f, 1e-6f, 0.1f});
     state.table = pack_rows(ConstraintKind::stretch, rows, particle_count);
     ASSERT_GT(state.table.overflow(), 0u);
     for (const Way way : {Way::project, Way::plain, Way::side_by_side, Way::fixed_point, Way::damp})

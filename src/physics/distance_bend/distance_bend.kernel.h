@@ -9,7 +9,7 @@ WEFT_FN StretchRow between_tips(DistanceBendRow row)
     between.rest = row.rest;
     between.compliance = row.compliance;
     between.compression = row.compliance;
-    between.straight = real(WEFT_NEVER_STRAIGHT);
+    between.play = real(WEFT_NEVER_STRAIGHT);
     return between;
 }
 

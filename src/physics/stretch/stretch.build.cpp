@@ -108,7 +108,7 @@ RowList build_stretch(const RestShape& rest, const StretchMaterial& material) {
             continue;
         }
         rows.add({edge.a, edge.b},
-                 {length_at_rest, compliances.stretched, compliances.compressed, law.straight(cos2, length_at_rest)},
+                 {length_at_rest, compliances.stretched, compliances.compressed, law.play(cos2, length_at_rest)},
                  {cos2, strip});
     }
     return rows;
@@ -122,7 +122,7 @@ bool change_stretch(const RowsToChange& rows, const StretchMaterial& material) {
     const float* __restrict strip = cos2 + rows.stride;
     float* __restrict stretched = rows.fields + rows.stride;
     float* __restrict compressed = stretched + rows.stride;
-    float* __restrict straight = compressed + rows.stride;
+    float* __restrict play = compressed + rows.stride;
     int without = 0;
     for (std::uint32_t row = 0; row < rows.stride; ++row) {
         const StretchLaw::Compliances at = law.at(cos2[row], strip[row]);
@@ -130,7 +130,7 @@ bool change_stretch(const RowsToChange& rows, const StretchMaterial& material) {
         without |= static_cast<int>(real) & static_cast<int>(at.stretched < 0) & static_cast<int>(at.compressed < 0);
         stretched[row] = real ? at.stretched : stretched[row];
         compressed[row] = real ? at.compressed : compressed[row];
-        straight[row] = real ? law.straight(cos2[row], rows.fields[row]) : straight[row];
+        play[row] = real ? law.play(cos2[row], rows.fields[row]) : play[row];
     }
     return without == 0;
 }

@@ -6,11 +6,11 @@
 //   rest         m    length at which the edge is at rest
 //   compliance   m/N  inverse stiffness while the edge is longer than that
 //   compression  m/N  inverse stiffness while it is shorter
-//   straight     m    length from which the compliance is WEFT_STRAIGHT_COMPLIANCE times that
-#define WEFT_ROW_stretch(FIELD) FIELD(rest) FIELD(compliance) FIELD(compression) FIELD(straight)
+//   play         m    how much longer than at rest it is when its threads are straight (stretch.md)
+#define WEFT_ROW_stretch(FIELD) FIELD(rest) FIELD(compliance) FIELD(compression) FIELD(play)
 
-#define WEFT_STRAIGHT_COMPLIANCE 0.02  // of an edge whose threads are straight, over that of the edge before
-#define WEFT_NEVER_STRAIGHT 1e15       // m
+#define WEFT_STRAIGHT_STIFFNESS 50.0  // of an edge whose threads are straight, over that at rest
+#define WEFT_NEVER_STRAIGHT 1e15      // m, or strain: the threads never are
 
 #ifdef __cplusplus
 #include "base/parameter.h"
@@ -40,7 +40,8 @@ inline constexpr Parameter stretch_parameters[] = {
     {.key = "shear", .count = 1, .offset = offsetof(StretchMaterial, shear), .min = 0, .max = 1e9, .unit = "N/m",
      .what = "shear stiffness"},
     {.key = "stretch_limit", .count = 2, .offset = offsetof(StretchMaterial, stretch_limit), .min = 0, .max = 10,
-     .what = "strain along warp and weft at which the threads are straight: beyond it edges are 50 times as stiff; 0: none"},
+     .what = "strain along warp and weft at which the threads are straight: from half of it to one and a half times it the "
+             "stiffness grows to 50 times; 0: none"},
     {.key = "inextensible", .kind = ParameterKind::flag, .offset = offsetof(StretchMaterial, inextensible),
      .what = "keep the length of every edge, whatever the stiffnesses"},
     {.key = "stretch_model", .kind = ParameterKind::choice, .offset = offsetof(StretchMaterial, model),

@@ -1,7 +1,31 @@
-// Stretch: moves two ends toward their rest distance. C = |a - b| - rest. Beyond the length `straight` it is the spring
-// that has the same force there and WEFT_STRAIGHT_COMPLIANCE times the compliance.
+// Stretch: moves two ends toward their rest distance. C = |a - b| - rest.
 
 struct StretchRow { WEFT_ROW_stretch(WEFT_ROW_MEMBER) };
+
+// The spring of an edge at its present length, whose stiffness grows where its threads become straight: its force is
+// (c / compliance) of a spring with these numbers, times the stiffness at rest.
+struct StretchSpring {
+    real c;      // m
+    real share;  // of the compliance at rest
+};
+
+// `longer`: by how much it is longer than at rest, m. `play`: as in StretchRow.
+WEFT_FN StretchSpring stretch_spring(real longer, real play)
+{
+    StretchSpring s;
+    s.c = longer;
+    s.share = real(1);
+    real grown = longer - play * real(0.5);
+    if (any(grown > real(0))) {
+        real x = max(real(0), min(grown, play));
+        mask stiffer = x > real(0);
+        real divisor = real(1) / select(stiffer, play + x * real(WEFT_STRAIGHT_STIFFNESS - 1.0), real(1));
+        real force = longer * play + real(WEFT_STRAIGHT_STIFFNESS - 1.0) * x * (grown - x * real(0.5));
+        s.c = select(stiffer, force * divisor, longer);
+        s.share = select(stiffer, play * divisor, real(1));
+    }
+    return s;
+}
 
 // A constraint at the current positions of its points.
 struct StretchState {
@@ -19,11 +43,9 @@ WEFT_FN StretchState measure_stretch(vec3 a, vec3 b, StretchRow row, Step step)
     s.d = a - b;
     s.len2 = dot(s.d, s.d);
     s.len = sqrt(s.len2);
-    s.c = s.len - row.rest;
-    real compliance = select(s.c > real(0), row.compliance, row.compression);
-    mask straight = s.len > row.straight;
-    s.c = s.c - select(straight, (row.straight - row.rest) * (real(1) - real(WEFT_STRAIGHT_COMPLIANCE)), real(0));
-    compliance = compliance * select(straight, real(WEFT_STRAIGHT_COMPLIANCE), real(1));
+    StretchSpring spring = stretch_spring(s.len - row.rest, row.play);
+    s.c = spring.c;
+    real compliance = select(s.c > real(0), row.compliance, row.compression) * spring.share;
     s.alpha = compliance * step.inv_h2;
     s.slack = compliance < real(0);
     return s;
@@ -52,7 +74,7 @@ WEFT_FN void damp_stretch(inout_(vec3) va, inout_(vec3) vb, vec3 a, vec3 b, real
     vec3 d = a - b;
     real len2 = dot(d, d);
     real compliance = select(len2 > row.rest * row.rest, row.compliance, row.compression) *
-                      select(len2 > row.straight * row.straight, real(WEFT_STRAIGHT_COMPLIANCE), real(1));
+                      stretch_spring(sqrt(len2) - row.rest, row.play).share;
     real w = wa + wb;
     mask able = w > real(0) && len2 > real(1e-20) && !(compliance < real(0));
     real s = select(able, -dot(d, va - vb) / ((w + compliance / viscous) * len2), real(0));

@@ -68,29 +68,32 @@ TEST(Stretch, has_its_own_stiffness_against_compression) {
     }
 }
 
-// The force grows by stiffness times strain up to the limit, and 50 times as much beyond it.
-TEST(Stretch, is_stiffer_from_the_length_at_which_threads_are_straight) {
-    const StretchRow row{1, 0.002, 0.002, 1.2};
-    const auto expected = [](double length) {
-        return length < 1.2 ? (length - 1) / 0.002 : (0.2 + 50 * (length - 1.2)) / 0.002;
-    };
-    for (const double start : {0.8, 1.1, 1.19, 1.21, 1.5}) {
-        for (const double weight : {0.0, 1.0}) {
-            vec3 a(0, 0, 0), b(start, 0, 0);
-            double lambda = 0;
-            const reference::Step step = make_step(0.02);
-            for (int i = 0; i < 200; ++i) reference::project_stretch(a, b, weight, weight, lambda, row, step);
-            if (weight > 0) {
-                EXPECT_NEAR(-lambda * step.inv_h2, expected(norm(a - b)), 1e-9) << start;
-            }
-        }
+// Of a spring of 1 m with the play 0.2 m, times its compliance at rest.
+double stiffening_force(double length) {
+    const double longer = length - 1, from = longer - 0.1;
+    if (from < 0) return longer;
+    return longer + 49 * (from < 0.2 ? from * from / 0.4 : from - 0.1);
+}
+
+TEST(Stretch, is_stiffer_where_threads_are_straight) {
+    const double inverse = 1 / 0.2;
+    for (const double length : {0.9, 1.05, 1.0999, 1.15, 1.2999, 1.3, 1.5}) {
+        const auto spring = reference::stretch_spring(length - 1, 0.2);
+        EXPECT_NEAR(spring.c / spring.share, stiffening_force(length), 1e-12) << length;
+        const double stiffness = (stiffening_force(length + 1e-6) - stiffening_force(length - 1e-6)) / 2e-6;
+        EXPECT_NEAR(1 / spring.share, stiffness, 49 * 1e-6 * inverse) << length;
+        EXPECT_LE(stiffening_force(length), 0.2 + 50 * std::max(0.0, length - 1.2) + 49 * 0.025)
+            << "near its asymptotes";
     }
-    // Half of the way, the spring takes up half of the load.
-    vec3 a(0, 0, 0), b(1.3, 0, 0);
-    double lambda = 0;
-    const reference::Step step = make_step(0.1);
-    reference::project_stretch(a, b, 0, 1e6, lambda, row, step);
-    EXPECT_NEAR(b.x, 1 + 0.2 * 0.98, 1e-4) << "toward the rest length of the stiff spring";
+    EXPECT_NEAR(stiffening_force(1.3), 0.2 + 50 * 0.1, 1e-12) << "the asymptote";
+    const StretchRow row{1, 0.002, 0.002, 0.2};
+    for (const double start : {0.8, 1.05, 1.15, 1.25, 1.5}) {
+        vec3 a(0, 0, 0), b(start, 0, 0);
+        double lambda = 0;
+        const reference::Step step = make_step(0.02);
+        for (int i = 0; i < 200; ++i) reference::project_stretch(a, b, 1, 1, lambda, row, step);
+        EXPECT_NEAR(-lambda * step.inv_h2, stiffening_force(norm(a - b)) / 0.002, 1e-6) << start;
+    }
 }
 
 TEST(Stretch, without_stiffness_against_compression_is_a_string) {
@@ -199,7 +202,7 @@ TEST(StretchRows, are_straight_at_the_limit_of_their_direction) {
             const Vec3 along =
                 topology->rest_positions[rows.particles[2 * r + 1]] - topology->rest_positions[rows.particles[2 * r]];
             const int kind = along.z == 0 ? 0 : along.x == 0 ? 1 : 2;
-            found[kind] = fields[3] / double{fields[0]} - 1;
+            found[kind] = fields[3] / double{fields[0]};
         }
         return found;
     };

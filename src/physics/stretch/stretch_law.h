@@ -25,11 +25,11 @@ class StretchLaw {
         return {compliance(pull_, cos2, strip), compliance(push_, cos2, strip)};
     }
 
-    /// m: length from which the threads of an edge are straight. `rest`: m, its length at rest.
-    float straight(float cos2, float rest) const {
+    /// m: how much longer than at rest an edge is when its threads are straight. `rest`: m, its length then.
+    float play(float cos2, float rest) const {
         const float inverse = cos2 * inverse_limit_[0] + (1 - cos2) * inverse_limit_[1];
-        const float length = rest * (1 + 1 / inverse);
-        return inverse > 0 && length < never_straight ? length : never_straight;
+        const float longer = rest / inverse;
+        return inverse > 0 && longer < never_straight ? longer : never_straight;
     }
 
     /// N/m: the softer one of the springs along warp and weft. Diagonals carry the rest of the fabric's stiffness.

@@ -5,7 +5,7 @@ struct TearSide {
     real rest;         // m
     real pull, push;   // N/m: stiffness k(phi) in the direction of the side, longer and shorter than at rest
     real x, y;         // unit: its direction at rest, along warp and weft
-    real straight;     // strain from which its compliance is WEFT_STRAIGHT_COMPLIANCE times that
+    real play;         // strain at which its threads are straight
 };
 
 #define WEFT_TEAR_SIDE_NUMBERS 6u
@@ -54,8 +54,8 @@ WEFT_FN real side_strain(vec3 a, vec3 b, TearSide side)
 // rotation.
 WEFT_FN PlaneStress side_stress(real strain, TearSide side, real x, real y)
 {
-    real beyond = max(strain - side.straight, real(0)) * (real(1) / real(WEFT_STRAIGHT_COMPLIANCE) - real(1));
-    real part = select(strain > real(0), side.pull, side.push) * (strain + beyond) * real(0.5);
+    StretchSpring spring = stretch_spring(strain, side.play);
+    real part = select(strain > real(0), side.pull, side.push) * spring.c / spring.share * real(0.5);
     PlaneStress s;
     s.mean = part * (x * side.x + y * side.y);
     s.difference = part * (x * side.x - y * side.y);

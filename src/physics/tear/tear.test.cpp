@@ -16,15 +16,22 @@ PlaneStress stress(double xx, double yy, double xy) {
     return {(xx + yy) / 2, (xx - yy) / 2, xy};
 }
 
-TearSide side_at(double degrees, double rest, double pull, double push, double straight = WEFT_NEVER_STRAIGHT) {
+TearSide side_at(double degrees, double rest, double pull, double push, double play = WEFT_NEVER_STRAIGHT) {
     const double angle = degrees * std::numbers::pi / 180;
-    return {rest, pull, push, std::cos(angle), std::sin(angle), straight};
+    return {rest, pull, push, std::cos(angle), std::sin(angle), play};
 }
 
-// Of a spring per area. Where its threads are straight, it is 50 times as stiff.
+// Of a spring per area: the integral of its force, whose stiffness grows to 50 times from half of `play` to one and a
+// half times it.
 double spring_energy(const TearSide& side, double strain) {
-    const double beyond = std::max(0.0, strain - side.straight);
-    return 0.5 * (strain > 0 ? side.pull : side.push) * (strain * strain + 49 * beyond * beyond);
+    const double from = strain - 0.5 * side.play;
+    double more = 0;
+    if (from > side.play) {
+        more = side.play * side.play / 6 + 0.5 * from * (from - side.play);
+    } else if (from > 0) {
+        more = from * from * from / (6 * side.play);
+    }
+    return (strain > 0 ? side.pull : side.push) * (0.5 * strain * strain + 49 * more);
 }
 
 TEST(Tear, finds_principal_tension_and_its_direction) {

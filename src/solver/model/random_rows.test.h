@@ -66,9 +66,9 @@ inline RandomState random_points(unsigned seed, bool degenerate) {
     return f;
 }
 
-// Length from which threads are straight: some are, some are not, and some never will be.
-inline float straight_from(float rest, Numbers& random) {
-    return random.below(3) == 0 ? static_cast<float>(WEFT_NEVER_STRAIGHT) : rest + random.uniform(0, 1);
+// How much longer an edge is when its threads are straight: some are, some are not, and some never will be.
+inline float random_play(Numbers& random) {
+    return random.below(3) == 0 ? static_cast<float>(WEFT_NEVER_STRAIGHT) : random.uniform(0, 1);
 }
 
 inline void add_rows(RandomState& f, ConstraintKind kind, unsigned seed, bool degenerate) {
@@ -87,8 +87,7 @@ inline void add_rows(RandomState& f, ConstraintKind kind, unsigned seed, bool de
         rows.particles.insert(rows.particles.end(), chosen.begin(), chosen.end());
         for (std::uint32_t k = 0; k < rows.field_count; ++k) {
             float value = random.uniform(0, k == 0 ? 1.0f : 1e-3f);
-            if (kind == ConstraintKind::stretch && k == 3)
-                value = straight_from(rows.fields[rows.fields.size() - 3], random);
+            if (kind == ConstraintKind::stretch && k == 3) value = random_play(random);
             if (degenerate && random.below(4) == 0)
                 value = random.below(2) ? -1.0f : std::pow(10.0f, random.uniform(-30, 30));
             rows.fields.push_back(value);
@@ -155,7 +154,7 @@ inline void add_lines(RandomState& f, unsigned seed, bool degenerate) {
         if (random.below(12) == 0) a.w = b.w = 0;
         if (random.below(12) == 0) b = {a.x, a.y, a.z, b.w};
         const float at_rest = rest(), pulled = compliance(), pushed = compliance();
-        chains.rows.fields.insert(chains.rows.fields.end(), {at_rest, pulled, pushed, straight_from(at_rest, random)});
+        chains.rows.fields.insert(chains.rows.fields.end(), {at_rest, pulled, pushed, random_play(random)});
     }
     f.table = chains.pack();
     f.lambda.assign(f.table.lambda_count(), 0.25f);

@@ -53,13 +53,13 @@ reference::TearSide make_side(const StretchLaw& law, const RestTriangle& rest, s
     const double length = std::sqrt(dot(along, along));
     const double x = dot(along, rest.warp) / length, y = dot(along, cross(rest.normal, rest.warp)) / length;
     const StretchLaw::Compliances at = law.at(static_cast<float>(std::min(1.0, x * x)), 1);
-    const double straight = double{law.straight(static_cast<float>(std::min(1.0, x * x)), 1)} - 1;
+    const double play = law.play(static_cast<float>(std::min(1.0, x * x)), 1);
     return {.rest = length,
             .pull = stiffness(at.stretched),
             .push = stiffness(at.compressed),
             .x = x,
             .y = y,
-            .straight = straight};
+            .play = play};
 }
 
 // Gives the sides the springs of the membrane. `rest` has an area.

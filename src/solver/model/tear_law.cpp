@@ -62,9 +62,9 @@ class LawBuilder {
                 const std::uint32_t c = face.corners[other], d = face.corners[(other + 1) % 3];
                 if (!(a == c && b == d) && !(a == d && b == c)) continue;
                 same[k] = other;
-                const auto& [rest, pull, push, x, y, straight] = face.sides[other];
+                const auto& [rest, pull, push, x, y, play] = face.sides[other];
                 const double way = a == c ? 1 : -1;  // the side may run the other way
-                const std::array numbers{rest, pull, push, way * x, way * y, straight};
+                const std::array numbers{rest, pull, push, way * x, way * y, play};
                 for (std::uint32_t i = 0; i < WEFT_TEAR_SIDE_NUMBERS; ++i)
                     law_.sides[std::size_t{WEFT_TEAR_SIDE_NUMBERS * k + i} * law_.stride + t] = single(numbers[i]);
             }

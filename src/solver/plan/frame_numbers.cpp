@@ -54,9 +54,8 @@ FrameLimits frame_limits(const ClothModel& model, std::span<const float> lambda,
     // is divided out.
     const Elasticity& elastic = model.elasticity;
     const auto straight = static_cast<float>(std::min(elastic.straight, 1e30));
-    const float tension = measured > straight
-                              ? straight + (measured - straight) * static_cast<float>(WEFT_STRAIGHT_COMPLIANCE)
-                              : measured;
+    const float tension =
+        measured > straight ? straight + (measured - straight) / static_cast<float>(WEFT_STRAIGHT_STIFFNESS) : measured;
     FrameLimits limits;
     limits.tension = std::max(0.0f, tension - static_cast<float>(elastic.tension));
     const float stretched = static_cast<float>(std::max(elastic.warp, elastic.weft)) * limits.tension;

@@ -18,8 +18,8 @@ constexpr std::array<float, bins_per_doubling> bin_starts{1, 1.18920712f, 1.4142
 constexpr float least = 1e-5f, most = 100;  // the last bin begins at 9
 constexpr std::uint32_t bin_count = 80;
 constexpr std::uint32_t mantissa_bits = 23;
-constexpr auto compliance_of_straight = static_cast<float>(WEFT_STRAIGHT_COMPLIANCE);
-constexpr float no_straight_strain = 1e15f;
+constexpr auto stiffness_of_straight = static_cast<float>(WEFT_STRAIGHT_STIFFNESS);
+constexpr auto no_straight_strain = static_cast<float>(WEFT_NEVER_STRAIGHT);
 
 std::uint32_t bin_of(float strain) {
     if (!(strain > least)) return 0;
@@ -72,7 +72,7 @@ float tension_in(const ConstraintTable& stretch, std::span<const float> lambda, 
     const float strain = bin <= 1 ? 0 : start_of(bin);
     // At a large stretch, threads that turn toward the pull carry load too, and limits must not take it.
     const float straight = straight_strain(fabric);
-    const float of_cloth = strain > straight ? straight + (strain - straight) * compliance_of_straight : strain;
+    const float of_cloth = strain > straight ? straight + (strain - straight) / stiffness_of_straight : strain;
     return strain * (1 + of_cloth) * static_cast<float>(softest);
 }
 

@@ -76,10 +76,10 @@ void run_limits()
         // Upper end of the highest bin below the excluded 5 %.
         float strain = bin <= 1u ? 0.0 : start_of(bin);
         float straight = limit_args.at.straight_strain;
-        float of_cloth = strain > straight ? straight + (strain - straight) * WEFT_STRAIGHT_COMPLIANCE : strain;
+        float of_cloth = strain > straight ? straight + (strain - straight) / WEFT_STRAIGHT_STIFFNESS : strain;
         float measured = strain * (1.0 + of_cloth) * limit_args.at.softest;
         straight = limit_args.at.straight;
-        float eased = measured > straight ? straight + (measured - straight) * WEFT_STRAIGHT_COMPLIANCE : measured;
+        float eased = measured > straight ? straight + (measured - straight) / WEFT_STRAIGHT_STIFFNESS : measured;
         float tension = max(0.0, eased - limit_args.at.model_tension);
         limit_args.at.limits.at.tension = tension;
         limit_args.at.limits.at.allowed = max(1.0, (1.0 + uintBitsToFloat(strain_bits)) / (1.0 + limit_args.at.stretched * tension));

@@ -64,11 +64,14 @@ Term term_of(uint row)
     float compliance = args.fields.at[(left.high > 0.0 ? 1u : 2u) * args.stride + row];
     if (compliance < 0.0) return Term(0.0, 0u);  // no stiffness on this side
     Two inv_h2 = Two(args.inv_h2, args.inv_h2_low);
-    float straight = args.fields.at[3u * args.stride + row];
-    if (now > straight) {
-        Two shift = multiply(sum_of(straight, -rest), 1.0 - WEFT_STRAIGHT_COMPLIANCE);
-        left = add(left, Two(-shift.high, -shift.low));
-        inv_h2 = multiply(inv_h2, WEFT_STRAIGHT_COMPLIANCE);
+    float play = args.fields.at[3u * args.stride + row];
+    Two grown = add(left, Two(-0.5 * play, 0.0)), most = grown.high > play ? Two(play, 0.0) : grown;
+    if (value(grown) > 0.0) {  // stretch_spring()
+        float divisor = play + value(most) * (WEFT_STRAIGHT_STIFFNESS - 1.0);
+        Two beyond = multiply(add(grown, multiply(most, -0.5)), value(most) * (WEFT_STRAIGHT_STIFFNESS - 1.0));
+        Two force = add(multiply(left, play), beyond);
+        left = Two(force.high / divisor, force.low / divisor);
+        inv_h2 = multiply(inv_h2, play / divisor);
     }
     if (args.inv_h2 > 0.0) {
         float lambda = args.lambda.at[row];
