@@ -2,21 +2,24 @@
 
 #include "mesh/paths.h"
 #include "physics/change_rows.h"
+#include "physics/stretch/stretch.data.h"
 
 #include <weft/bounds.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <tuple>
 
 namespace weft {
 namespace {
 
 // No stiffness on either side.
-constexpr std::array<float, 3> inert = {0, -1, -1};
+constexpr float inert[] = {0, -1, -1, WEFT_NEVER_STRAIGHT};
 
 struct Lines {
     Paths paths;
@@ -198,7 +201,8 @@ class LineWriter {
 
     void write_row(std::uint32_t at, std::uint32_t row, bool turned) {
         const std::uint32_t* ends = &rows_.particles[2 * std::size_t{row}];
-        place(at, ends[turned], ends[!turned], &rows_.fields[std::size_t{rows_.field_count} * row]);
+        place(at, ends[turned], ends[!turned],
+              std::span(rows_.fields).subspan(std::size_t{rows_.field_count} * row, rows_.field_count));
         for (std::uint32_t number = 0; number < rows_.geometry_count; ++number)
             geometry_[number * stride_ + at] = rows_.geometry[std::size_t{rows_.geometry_count} * row + number];
     }
@@ -212,7 +216,7 @@ class LineWriter {
     }
     // Padding uses the line's last particle twice, so that it is accessed only by the lane, and thread, of the line.
     void write_padding(std::uint32_t at, std::uint32_t from, std::uint32_t length, std::uint32_t end) {
-        for (std::uint32_t k = from; k < length; ++k) place(at + k * lane_padding, end, end, inert.data());
+        for (std::uint32_t k = from; k < length; ++k) place(at + k * lane_padding, end, end, inert);
     }
     void move_to(ConstraintTable& table) {
         table.particles = std::move(particles_);
@@ -221,7 +225,8 @@ class LineWriter {
     }
 
   private:
-    void place(std::uint32_t at, std::uint32_t first, std::uint32_t second, const float* fields) {
+    void place(std::uint32_t at, std::uint32_t first, std::uint32_t second, std::span<const float> fields) {
+        assert(fields.size() == rows_.field_count);
         particles_[at] = first;
         particles_[stride_ + at] = second;
         for (std::uint32_t field = 0; field < rows_.field_count; ++field) fields_[field * stride_ + at] = fields[field];
