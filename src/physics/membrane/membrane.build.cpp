@@ -1,5 +1,6 @@
 #include "physics/constraint.h"
 #include "physics/membrane/membrane_split.h"
+#include "physics/stretch/stretch_law.h"
 
 #include <array>
 #include <utility>
@@ -25,7 +26,7 @@ std::array<std::size_t, 3> pivot_order(SymmetricMatrix m) {
 
 RowList build_membrane(const RestShape& rest, const MembraneMaterial& material) {
     RowList rows = make_rows(ConstraintKind::membrane);
-    if (material.model != StretchModel::membrane || material.inextensible) return rows;
+    if (!has_membranes(material)) return rows;
     const auto& x = rest.topology.rest_positions;
     for (std::uint32_t t = 0; t < rest.topology.triangles.size(); ++t) {
         const SymmetricMatrix left = split_membrane(rest, t, material).remainder;

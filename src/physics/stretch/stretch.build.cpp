@@ -94,7 +94,7 @@ RowList build_stretch(const RestShape& rest, const StretchMaterial& material) {
     const StretchLaw law(material);
     RowList rows = make_rows(ConstraintKind::stretch);
     rows.geometry_count = 2;
-    const bool membrane = material.model == StretchModel::membrane && !material.inextensible;
+    const bool membrane = has_membranes(material);
     const auto of_membrane = membrane ? edges_of_membrane(rest, material) : std::vector<StretchLaw::Compliances>();
     for (std::size_t e = 0; e < rest.topology.edges.size(); ++e) {
         const Edge& edge = rest.topology.edges[e];

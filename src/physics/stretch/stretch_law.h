@@ -55,6 +55,11 @@ class StretchLaw {
     bool inextensible_;
 };
 
+/// Whether triangles have membranes beside their springs.
+inline bool has_membranes(const StretchMaterial& material) {
+    return material.model == StretchModel::membrane && !material.inextensible;
+}
+
 /// Of the springs of each triangle of a membrane, the edge opposite corner i at index i.
 std::vector<std::array<StretchLaw::Compliances, 3>> springs_of_membrane(const RestShape& rest,
                                                                         const StretchMaterial& material);

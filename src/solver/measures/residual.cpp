@@ -6,6 +6,7 @@
 #include <cmath>
 
 namespace weft {
+
 Residual stretch_residual(const ClothModel& model, std::span<const Vec4> positions, std::span<const float> lambdas,
                           double substep_seconds) {
     const ConstraintTable& table = model.table(ConstraintKind::stretch);

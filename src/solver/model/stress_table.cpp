@@ -224,8 +224,7 @@ StressTable make_stress_table(const ClothModel& model, const TriangleView& trian
         table.inverse_strength[i] = fabric.tear.strength[i] > 0 ? 1 / static_cast<double>(fabric.tear.strength[i]) : 0;
     table.tear_energy = fabric.tear.tear_energy;
     table.tear_ratio = fabric.tear.tear_ratio;
-
-    table.membranes = fabric.stretch.model == StretchModel::membrane && !table.inextensible;
+    table.membranes = has_membranes(fabric.stretch);
 
     const StretchLaw law(fabric.stretch);
     std::vector<std::vector<Corner>> around(model.particle_count);

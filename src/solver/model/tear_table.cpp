@@ -162,7 +162,7 @@ class TearTableBuilder {
     }
 
     void make_springs() {
-        if (model_.table(ConstraintKind::membrane).rows == 0) return;
+        if (!has_membranes(model_.fabric.stretch)) return;
         const auto springs = springs_of_membrane(rest_, model_.fabric.stretch);
         const auto& corners = table_.rows[static_cast<std::uint32_t>(ConstraintKind::stretch)].corners;
         const std::uint32_t half = table_.half_stride, stride = model_.table(ConstraintKind::stretch).stride;

@@ -53,6 +53,7 @@ FrameLimits frame_limits(const ClothModel& model, std::span<const float> lambda,
     // Limits always allow for the model's tension. The strain between pins includes the strain due to tension, so that
     // is divided out.
     const Elasticity& elastic = model.elasticity;
+    // Elasticity::eased() in floats, as on a GPU.
     const auto straight = static_cast<float>(std::min(elastic.straight, 1e30));
     const float tension =
         measured > straight ? straight + (measured - straight) / static_cast<float>(WEFT_STRAIGHT_STIFFNESS) : measured;
