@@ -270,6 +270,17 @@ struct ResistanceDesc {
     friend bool operator==(const ResistanceDesc&, const ResistanceDesc&) = default;
 };
 
+enum class WeightOf { density, stretch, bend };
+/// Particles whose cloth is heavier or lighter, stiffer or softer than the fabric. A triangle has the mean of its three
+/// corners. If several descriptions of the same value select a particle, the last one counts.
+struct WeightDesc {
+    WeightOf of = WeightOf::density;  ///< stretch: with shear and compression
+    float factor = 1;  ///< 0.001…1e6: on the value of the fabric. A product with a channel is at least 0.001
+    std::variant<VertexPins, BoxPins, ColorPins, PaintedChannel> select = {};
+    std::vector<float> factors = {};  ///< as in ResistanceDesc
+    friend bool operator==(const WeightDesc&, const WeightDesc&) = default;
+};
+
 /// Where a cut lies that Simulation::cut() makes: on the cloth as it is now, or as it was at the start. Both are in
 /// world space.
 enum class CutPositions { current, start };
@@ -322,6 +333,7 @@ struct ClothDesc {
     std::vector<CutDesc> cuts = {};               ///< need `tearing`
     std::vector<SeamDesc> seams = {};             ///< need Tearing::split
     std::vector<ResistanceDesc> resistance = {};  ///< needs Tearing::split or Tearing::erode
+    std::vector<WeightDesc> weights = {};
     Tethers tethers = Tethers::automatic;
     float tether_slack = 0;  ///< fraction by which a particle may exceed the geodesic distance, 0…100
     SelfCollision self_collision = SelfCollision::off;

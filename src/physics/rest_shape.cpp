@@ -57,6 +57,15 @@ void complete(RestShape& rest) {
 
 }  // namespace
 
+float weighted_area_at(const RestShape& rest, std::size_t edge, const std::vector<float>& weights) {
+    if (weights.empty()) return rest.area_at_edge[edge];
+    const Edge& at = rest.topology.edges[edge];
+    float sum = 0;
+    for (const std::uint32_t t : {at.triangle0, at.triangle1})
+        if (t != none) sum += weights[t] * rest.area[t];
+    return sum;
+}
+
 RestShape make_rest_shape(const TriangleMesh& mesh, const Topology& topology) {
     RestShape rest{.topology = topology, .area = {}, .warp = {}};
     rest.area.reserve(topology.triangles.size());

@@ -30,7 +30,18 @@ struct RestShape {
     std::vector<Attachment> attachments = {};  ///< anchor i is particle `first_anchor` + i
     std::uint32_t first_anchor = topology.particle_count;
     Elasticity elasticity = {};  ///< for one-sided limits
+    double mean_density = 0;     ///< kg/m²; for coarse levels
+    /// Per triangle: factors on the stiffness against stretch, shear and compression, and against bending; empty: 1.
+    std::vector<float> stretch_weight = {}, bend_weight = {};
 };
+
+/// The weight of a triangle. `weights`: of all triangles; empty: 1.
+inline float weight_at(const std::vector<float>& weights, std::uint32_t triangle) {
+    return weights.empty() ? 1.0f : weights[triangle];
+}
+
+/// m²: `area_at_edge`, with the area of each triangle multiplied by its weight.
+float weighted_area_at(const RestShape& rest, std::size_t edge, const std::vector<float>& weights);
 
 /// m²
 inline float area_of(Vec3 a, Vec3 b, Vec3 c) {

@@ -331,10 +331,12 @@ void check_path(const std::variant<PathCut, PlaneCut>& along, const std::string&
     }
 }
 
-void check_factors(const ResistanceDesc& resistance, const std::string& pointer, Problems& problems) {
-    const auto& factors = resistance.factors;
+// `desc`: a ResistanceDesc or a WeightDesc.
+template <class Desc>
+void check_factors(const Desc& desc, const std::string& pointer, Problems& problems) {
+    const auto& factors = desc.factors;
     if (factors.empty() || problems.concern(pointer)) return;
-    const auto* vertices = std::get_if<VertexPins>(&resistance.select);
+    const auto* vertices = std::get_if<VertexPins>(&desc.select);
     if (!vertices || !vertices->group.empty()) return problems.add(pointer, "needs \"vertices\"");
     if (factors.size() != vertices->vertices.size())
         problems.add(pointer, "must hold a number per vertex, " + std::to_string(vertices->vertices.size()) + ", got " +
@@ -345,19 +347,29 @@ void check_factors(const ResistanceDesc& resistance, const std::string& pointer,
             problems.add(at(pointer, i), problem);
 }
 
-void check_resistance(const ResistanceDesc& resistance, const std::optional<MadeMesh>& made, const std::string& pointer,
-                      Problems& problems) {
-    check_values(resistance_factor_keys, &resistance, pointer, problems);
-    check_factors(resistance, at(pointer, "factors"), problems);
-    if (const auto* channel = std::get_if<PaintedChannel>(&resistance.select)) {
+// The same. `keys`: that of its factor.
+template <class Desc>
+void check_painted(const Desc& desc, std::span<const Parameter> keys, const std::optional<MadeMesh>& made,
+                   const std::string& pointer, Problems& problems) {
+    check_values(keys, &desc, pointer, problems);
+    check_factors(desc, at(pointer, "factors"), problems);
+    if (const auto* channel = std::get_if<PaintedChannel>(&desc.select)) {
         check_values(painted_channel_keys, channel, pointer, problems);
         if (made) problems.add(at(pointer, "channel"), needs_colors(*made));
-    } else if (const auto* vertices = std::get_if<VertexPins>(&resistance.select)) {
+    } else if (const auto* vertices = std::get_if<VertexPins>(&desc.select)) {
         check_selection(*vertices, made, pointer, problems);
-    } else if (const auto* box = std::get_if<BoxPins>(&resistance.select)) {
+    } else if (const auto* box = std::get_if<BoxPins>(&desc.select)) {
         check_selection(*box, made, pointer, problems);
     } else {
-        check_selection(std::get<ColorPins>(resistance.select), made, pointer, problems);
+        check_selection(std::get<ColorPins>(desc.select), made, pointer, problems);
+    }
+}
+
+void check_weights(const std::vector<WeightDesc>& weights, const std::optional<MadeMesh>& made,
+                   const std::string& pointer, Problems& problems) {
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        check_values(weight_keys, &weights[i], at(pointer, i), problems);
+        check_painted(weights[i], weight_factor_keys, made, at(pointer, i), problems);
     }
 }
 
@@ -389,7 +401,7 @@ void check_tearing(const SceneCloth& cloth, const std::optional<MadeMesh>& made,
     }
     needs(!cloth.seams.empty(), "seams", split, "\"split\"");
     for (std::size_t i = 0; i < cloth.resistance.size(); ++i)
-        check_resistance(cloth.resistance[i], made, at(at(pointer, "resistance"), i), problems);
+        check_painted(cloth.resistance[i], resistance_factor_keys, made, at(at(pointer, "resistance"), i), problems);
     needs(!cloth.resistance.empty(), "resistance", split || erode, "\"split\" or \"erode\"");
 }
 
@@ -427,6 +439,7 @@ void check_cloth(const SceneCloth& cloth, const std::string& pointer, Problems& 
     const bool sound = !problems.concern(at(pointer, "mesh"));
     check_groups(cloth.groups, sound ? made_mesh(cloth.mesh) : std::nullopt, at(pointer, "groups"), problems);
     check_pins(cloth.pins, sound ? cloth.mesh : MeshDesc(MeshFileDesc()), at(pointer, "pins"), problems);
+    check_weights(cloth.weights, sound ? made_mesh(cloth.mesh) : std::nullopt, at(pointer, "weights"), problems);
     check_tearing(cloth, sound ? made_mesh(cloth.mesh) : std::nullopt, pointer, problems);
     check_material(cloth.material, at(pointer, "material"), problems);
 }

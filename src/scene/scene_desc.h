@@ -37,7 +37,7 @@ struct SceneMaterial {
     friend bool operator==(const SceneMaterial&, const SceneMaterial&) = default;
 };
 
-/// Vertices with a name, so that pins and resistance can name them.
+/// Vertices with a name, so that pins, resistance and weights can name them.
 struct VertexGroup {
     std::string name = {};
     std::vector<std::uint32_t> vertices = {};  ///< welded vertices, as in VertexPins
@@ -58,6 +58,7 @@ struct SceneCloth {
     std::vector<CutDesc> cuts = {};
     std::vector<SeamDesc> seams = {};
     std::vector<ResistanceDesc> resistance = {};
+    std::vector<WeightDesc> weights = {};
     Tethers tethers = Tethers::automatic;
     float tether_slack = 0;  ///< relative to the geodesic distance
     SelfCollision self_collision = SelfCollision::off;

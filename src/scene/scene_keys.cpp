@@ -36,6 +36,7 @@ const OffsetKey offset_key;
 const CutDesc cut;
 const SeamDesc seam;
 const ResistanceDesc resistance;
+const WeightDesc weight;
 const PaintedChannel painted_channel;
 const PlaneCut cut_plane;
 const PoseKey pose_key;
@@ -100,6 +101,14 @@ std::vector<SceneTable> all_tables() {
         {"/cloths/*/resistance/*", painted_channel_keys, &painted_channel},
         {"/cloths/*/resistance/*", resistance_factor_keys, &resistance},
         {"/cloths/*/resistance/*/box", box_keys, nullptr},
+        {"/cloths/*/weights/*", weight_keys, &weight},
+        {"/cloths/*/weights/*", resistance_vertex_keys, nullptr},
+        {"/cloths/*/weights/*", in_group_keys, &group_head},
+        {"/cloths/*/weights/*", resistance_keys, nullptr},
+        {"/cloths/*/weights/*", color_pin_keys, &color_pins},
+        {"/cloths/*/weights/*", painted_channel_keys, &painted_channel},
+        {"/cloths/*/weights/*", weight_factor_keys, &weight},
+        {"/cloths/*/weights/*/box", box_keys, nullptr},
         {"/cloths/*/material", material_keys, &material_head},
         {"/cloths/*/material", material_parameters, nullptr},
         // Its material has the same keys as a cloth's material.

@@ -216,7 +216,7 @@ inline constexpr Parameter cloth_keys[] = {
      .max = 4294967295, .what = "with which groups of other cloths it collides: the sum of 2^group"},
     {.key = "layer", .kind = ParameterKind::integer, .offset = offsetof(SceneCloth, layer), .max = 1000,
      .what = "where cloths of two layers cross, untangling moves the higher one to the front of the lower one"},
-    {.key = "groups", .kind = ParameterKind::list, .what = "vertices with a name, for `pins` and `resistance`"},
+    {.key = "groups", .kind = ParameterKind::list, .what = "vertices with a name, for `pins`, `resistance` and `weights`"},
     {.key = "pins", .kind = ParameterKind::list, .what = "particles whose positions are given"},
     {.key = "cuts", .kind = ParameterKind::list,
      .what = "where the cloth is opened, and when; needs `tearing` `cuts`, `split` or `erode`"},
@@ -224,6 +224,8 @@ inline constexpr Parameter cloth_keys[] = {
      .what = "edges with a strength of their own; needs `tearing` `split`"},
     {.key = "resistance", .kind = ParameterKind::list,
      .what = "particles that are weaker or stronger than the fabric; needs `tearing` `split` or `erode`"},
+    {.key = "weights", .kind = ParameterKind::list,
+     .what = "particles whose cloth is heavier or lighter, stiffer or softer than the fabric"},
     {.key = "material", .kind = ParameterKind::object,
      .what = "a material's name, or its values; for images and exports"},
 };
@@ -367,6 +369,20 @@ inline constexpr Parameter resistance_keys[] = {
 inline constexpr Parameter resistance_factor_keys[] = {
     {.key = "factor", .offset = offsetof(ResistanceDesc, factor), .min = 0.001, .max = 1e6,
      .what = "factor on `strength`, on the limit at the ends of cuts and on the strain of `tear_ratio`"},
+};
+
+inline constexpr Parameter weight_keys[] = {
+    {.key = "of", .kind = ParameterKind::choice, .offset = offsetof(WeightDesc, of),
+     .what = "what `factor` is multiplied with: the density of the fabric; its stiffness against stretch, shear and "
+             "compression; or its stiffness against bending",
+     .choices = "density|stretch|bend",
+     .choice_words = "mass per area|stiffness against stretch, shear and compression|stiffness against bending",
+     .required = true},
+};
+
+inline constexpr Parameter weight_factor_keys[] = {
+    {.key = "factor", .offset = offsetof(WeightDesc, factor), .min = 0.001, .max = 1e6,
+     .what = "factor on the value of the fabric; a triangle has the mean of its corners"},
 };
 
 inline constexpr Parameter painted_channel_keys[] = {

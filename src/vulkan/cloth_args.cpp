@@ -80,8 +80,8 @@ TautArgs ClothArgs::taut_args() const {
 LimitArgs ClothArgs::limit_args() const {
     const ConstraintTable& table = model_.table(ConstraintKind::stretch);
     const TableBuffers& rows = buffers_.tables[static_cast<std::uint32_t>(ConstraintKind::stretch)];
-    const StretchMaterial& fabric = model_.fabric.stretch;
-    const double softest = std::min(fabric.stretch[0], fabric.stretch[1]);
+    const StretchMaterial material = softest_stretch(model_);
+    const double softest = std::min(material.stretch[0], material.stretch[1]);
     const Elasticity& elastic = model_.elasticity;
     return {.position = state(PointArray::position),
             .particles = of_model(rows.particles),
@@ -98,7 +98,7 @@ LimitArgs ClothArgs::limit_args() const {
             .softest = static_cast<float>(softest),
             .model_tension = static_cast<float>(elastic.tension),
             .stretched = static_cast<float>(std::max(elastic.warp, elastic.weft)),
-            .straight_strain = straight_strain(model_.fabric),
+            .straight_strain = straight_strain(material),
             .straight = static_cast<float>(std::min(elastic.straight, 1e30)),
             .unused0 = 0,
             .unused1 = 0,

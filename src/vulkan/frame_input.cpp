@@ -45,10 +45,10 @@ WindIn wind_in(const WindNow& wind) {
 
 // Strain times rest length over lambda of stretch. Same factor as in tension_in() (solver/plan/tension.h).
 float strain_per_lambda(const ClothModel& model, double substep_seconds) {
-    const StretchMaterial& fabric = model.fabric.stretch;
-    const double softest = std::min(fabric.stretch[0], fabric.stretch[1]);
-    if (fabric.inextensible || !(softest > 0) || !(substep_seconds > 0)) return 0;
-    return static_cast<float>(-1 / (substep_seconds * substep_seconds * StretchLaw(fabric).softest_spring()));
+    const StretchMaterial material = softest_stretch(model);
+    const double softest = std::min(material.stretch[0], material.stretch[1]);
+    if (material.inextensible || !(softest > 0) || !(substep_seconds > 0)) return 0;
+    return static_cast<float>(-1 / (substep_seconds * substep_seconds * StretchLaw(material).softest_spring()));
 }
 
 FrameIn frame_in(const ClothModel& model, const WorldPlan& plan, const StepInput& input, const ClothStep& cloth,

@@ -4,6 +4,7 @@
 #include "mesh/topology.h"
 #include "scene/problems.h"
 #include "solver/model/tear_law.h"
+#include "weft/painting.h"
 
 #include <algorithm>
 #include <optional>
@@ -137,13 +138,14 @@ Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, 
     built.source.numbers = std::make_shared<const ParticleNumbers>(
         ParticleNumbers{topology->particle_count, topology->welded_to_particle, topology->vertex_to_particle,
                         topology->particle_count + reserve.particles});
-    auto pinned = select_pins(cloth.pins,
-                              {.mesh = loaded->mesh,
-                               .numbers = *built.source.numbers,
-                               .rest_positions = topology->rest_positions,
-                               .positions = {}},
-                              world, pointer + "/pins");
+    const PinnedCloth placed{.mesh = loaded->mesh,
+                             .numbers = *built.source.numbers,
+                             .rest_positions = topology->rest_positions,
+                             .positions = {}};
+    auto pinned = select_pins(cloth.pins, placed, world, pointer + "/pins");
     if (!pinned) return pinned.errors();
+    auto weights = weights_of(cloth.weights, placed, topology->triangles, pointer + "/weights");
+    if (!weights) return weights.errors();
     built.source.pins = pinned->pins;
     if (drawn || reserve.openings) built.source.simulated = std::make_shared<const TriangleMesh>(loaded->mesh);
     built.targets = std::move(pinned->targets);
@@ -152,6 +154,7 @@ Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, 
                                     .render_mesh = std::move(drawn),
                                     .start_velocity = cloth.velocity,
                                     .fabric = fabric_of(cloth),
+                                    .weights = std::move(*weights),
                                     .collision = collision_of(cloth),
                                     .pins = std::move(pinned->pins),
                                     .layout = world.settings().layout(),
@@ -176,7 +179,17 @@ Result<std::shared_ptr<const ClothModel>> rebuild_cloth(const ClothModel& now, c
     const TriangleMesh& mesh = simulated_mesh(now, source);
     auto topology = build_topology(mesh, source.topology);
     if (!topology) return topology.errors();
-    return change_cloth_model(now, mesh, *topology, fabric_of(cloth), pins, layout, collision_of(cloth));
+    auto weights = weights_of(
+        cloth.weights,
+        {.mesh = mesh, .numbers = *source.numbers, .rest_positions = topology->rest_positions, .positions = {}},
+        topology->triangles, "/weights");
+    if (!weights) return weights.errors();
+    return change_cloth_model(now, mesh, *topology,
+                              {.fabric = fabric_of(cloth),
+                               .weights = std::move(*weights),
+                               .pins = pins,
+                               .layout = layout,
+                               .collision = collision_of(cloth)});
 }
 
 Result<std::uint32_t> find_triangle(std::uint32_t number, const ClothModel& model, const ClothSource& source) {

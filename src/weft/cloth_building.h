@@ -58,8 +58,8 @@ const TriangleMesh& simulated_mesh(const ClothModel& model, const ClothSource& s
 /// triangle, or if it is not simulated.
 Result<std::uint32_t> find_triangle(std::uint32_t number, const ClothModel& model, const ClothSource& source);
 
-/// Builds a model with the fabric and the self-collision of `cloth`, and other pins or another layout, for the
-/// particles of `now`.
+/// Builds a model with the fabric, the weights and the self-collision of `cloth`, and other pins or another layout, for
+/// the particles of `now`.
 Result<std::shared_ptr<const ClothModel>> rebuild_cloth(const ClothModel& now, const ClothSource& source,
                                                         const SceneCloth& cloth, const ClothPins& pins,
                                                         const ClothLayout& layout);

@@ -4,12 +4,12 @@
 #include "solver/model/cuts.h"
 #include "solver/model/opened_cloth.h"
 #include "solver/model/tear_table.h"
+#include "weft/painting.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
-#include <type_traits>
 #include <variant>
 
 namespace weft {
@@ -98,71 +98,17 @@ void add_seam(const SeamDesc& seam, const ClothModel& model, TearPaint& paint, E
                 paint.seams.push_back({link, seam.strength, seam.tear_energy, across_seam(seam.along, model, link)});
 }
 
-constexpr float least_resistance = 0.001f;
-
-float channel_of(Vec4 color, ColorChannel channel) {
-    switch (channel) {
-        case ColorChannel::red:
-            return color.x;
-        case ColorChannel::green:
-            return color.y;
-        case ColorChannel::blue:
-            return color.z;
-        case ColorChannel::alpha:
-            return color.w;
-    }
-    return 1;
-}
-
-// The factor of each particle is the mean of its vertices.
-Result<void> paint_channel(const ResistanceDesc& desc, const PinnedCloth& cloth, TearPaint& paint,
-                           const std::string& place) {
-    const auto& colors = cloth.mesh.colors;
-    if (colors.empty()) return Error{place + "/channel", "the mesh has no vertex colors"};
-    std::vector<float> sum(paint.resistance.size()), count(paint.resistance.size());
-    for (std::size_t v = 0; v < colors.size(); ++v) {
-        const std::uint32_t p = cloth.numbers.of_vertex[v];
-        const float value = channel_of(colors[v], std::get<PaintedChannel>(desc.select).channel);
-        if (p == none) continue;
-        if (!std::isfinite(value))
-            return Error{place + "/channel", "the color of vertex " + std::to_string(v) + " is not a finite number"};
-        sum[p] += value, ++count[p];
-    }
-    for (std::size_t p = 0; p < sum.size(); ++p)
-        if (count[p] > 0) paint.resistance[p] = std::max(least_resistance, desc.factor * sum[p] / count[p]);
-    return {};
-}
-
-Result<void> paint_resistance(const ResistanceDesc& desc, const PinnedCloth& cloth, TearPaint& paint,
-                              const std::string& place) {
-    if (std::holds_alternative<PaintedChannel>(desc.select)) return paint_channel(desc, cloth, paint, place);
-    std::variant<VertexPins, BoxPins, ColorPins> select;
-    std::visit(
-        [&](const auto& one) {
-            if constexpr (!std::is_same_v<std::remove_cvref_t<decltype(one)>, PaintedChannel>) select = one;
-        },
-        desc.select);
-    const auto chosen = select_particles(select, cloth, place);
-    if (!chosen) return chosen.errors();
-    for (std::size_t i = 0; i < chosen->size(); ++i) {
-        // Copies follow the listed vertices, and have no resistance of their own.
-        const float own = i < desc.factors.size() ? desc.factors[i] : 1;
-        paint.resistance[(*chosen)[i]] = std::max(least_resistance, desc.factor * own);
-    }
-    return {};
-}
-
 Result<std::vector<float>> resistance_of(const SceneCloth& cloth, const ClothModel& model, const PinnedCloth& particles,
                                          const std::string& pointer) {
-    TearPaint paint;
+    std::vector<float> resistance;
     Errors errors;
-    if (!cloth.resistance.empty()) paint.resistance.assign(model.tears->vertex_count(), 1.0f);
+    if (!cloth.resistance.empty()) resistance.assign(model.tears->vertex_count(), 1.0f);
     for (std::size_t i = 0; i < cloth.resistance.size(); ++i) {
-        const auto done = paint_resistance(cloth.resistance[i], particles, paint, at(at(pointer, "resistance"), i));
+        const auto done = paint_factors(cloth.resistance[i], particles, resistance, at(at(pointer, "resistance"), i));
         if (!done) errors.insert(errors.end(), done.errors().begin(), done.errors().end());
     }
     if (!errors.empty()) return errors;
-    return std::move(paint.resistance);
+    return resistance;
 }
 
 }  // namespace

@@ -164,10 +164,12 @@ Result<void> SceneWorld::change_cloths(const SceneDesc& next) {
         }
         Pinned pinned{sources_[place].pins, world_->kinematic_targets(id)};
         std::vector<std::uint32_t> particles = world_->pinned(id);
-        if (there->pins == wanted.pins && collides_alike(*there, wanted)) {
-            auto changed = change_material(place, wanted);
-            if (!changed) return changed.errors();
-            if (*changed) continue;
+        if (there->pins == wanted.pins) {
+            if (collides_alike(*there, wanted) && there->weights == wanted.weights) {
+                auto changed = change_material(place, wanted);
+                if (!changed) return changed.errors();
+                if (*changed) continue;
+            }
         } else {
             auto selected = select_pins_now(*world_, id, sources_[place], wanted.pins);
             if (!selected) return selected.errors();

@@ -23,6 +23,7 @@ SceneCloth without_meshes(const SceneCloth& cloth) {
             .cuts = cloth.cuts,
             .seams = cloth.seams,
             .resistance = cloth.resistance,
+            .weights = cloth.weights,
             .tethers = cloth.tethers,
             .tether_slack = cloth.tether_slack,
             .self_collision = cloth.self_collision,

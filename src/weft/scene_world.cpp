@@ -346,7 +346,7 @@ void SceneWorld::rebuild_later(std::size_t place) {
     const ClothId id = world_->cloth_id(place);
     const auto now = world_->model(id);
     const ClothSource& all = sources_[place];
-    world_->rebuild_later(id, [now, source = ClothSource{all.simulated, all.topology, {}, all.pins, {}},
+    world_->rebuild_later(id, [now, source = ClothSource{all.simulated, all.topology, all.numbers, all.pins, {}},
                                cloth = without_meshes(scene_.cloths[place]), layout = world_->settings().layout()] {
         return rebuild_cloth(*now, source, cloth, source.pins, layout);
     });

@@ -26,6 +26,7 @@ SceneCloth resolved(const ClothDesc& desc, const Fabric& fabric) {
             .cuts = desc.cuts,
             .seams = desc.seams,
             .resistance = desc.resistance,
+            .weights = desc.weights,
             .tethers = desc.tethers,
             .tether_slack = desc.tether_slack,
             .self_collision = desc.self_collision,

@@ -36,7 +36,22 @@ struct SheetDesc {
     std::function<bool(Vec3 at_rest)> pinned = {};
     std::function<float(Vec3 at_rest)> spring = {};  ///< m/N: holds a particle where it starts; 0 for none
     std::function<Vec3(Vec3 at_rest)> shape = {};    ///< bends the sheet at rest
+    // Factors on values of the fabric:
+    std::function<float(Vec3 at_rest)> density = {}, stretch = {}, bend = {};
+    ClothReserve reserve = {};
 };
+
+inline ClothWeights::Factors factors_of(const std::function<float(Vec3)>& at, const std::vector<Vec3>& flat,
+                                        const Topology& topology) {
+    ClothWeights::Factors factors;
+    if (!at) return factors;
+    factors.of_particles.resize(topology.particle_count);
+    for (std::uint32_t v = 0; v < flat.size(); ++v) factors.of_particles[topology.vertex_to_particle[v]] = at(flat[v]);
+    for (const auto& [a, b, c] : topology.triangles)
+        factors.of_triangles.push_back((factors.of_particles[a] + factors.of_particles[b] + factors.of_particles[c]) /
+                                       3);
+    return factors;
+}
 
 inline std::shared_ptr<const ClothModel> make_sheet(const SheetDesc& desc) {
     TriangleMesh mesh = make_grid(desc.size, desc.resolution, desc.diagonal);
@@ -49,8 +64,12 @@ inline std::shared_ptr<const ClothModel> make_sheet(const SheetDesc& desc) {
                          .mesh = std::move(mesh),
                          .start_velocity = desc.velocity,
                          .fabric = desc.fabric,
+                         .weights = {.density = factors_of(desc.density, flat, *topology),
+                                     .stretch = factors_of(desc.stretch, flat, *topology),
+                                     .bend = factors_of(desc.bend, flat, *topology)},
                          .collision = {desc.self_collision, desc.filter, desc.layer},
-                         .layout = desc.layout};
+                         .layout = desc.layout,
+                         .reserve = desc.reserve};
     for (std::uint32_t v = 0; v < flat.size(); ++v) {
         const std::uint32_t p = topology->vertex_to_particle[v];
         if (desc.pinned && desc.pinned(flat[v])) model.pins.particles.push_back(p);

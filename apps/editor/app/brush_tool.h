@@ -1,4 +1,4 @@
-// The brush: paints pins, resistance and groups on a cloth.
+// The brush: paints pins, groups, and factors on values of the fabric.
 #pragma once
 
 #include "editor/app/paint_kinds.h"

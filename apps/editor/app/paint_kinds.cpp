@@ -1,6 +1,7 @@
 #include "editor/app/paint_kinds.h"
 
 #include "editor/app/vertex_edits.h"
+#include "scene/check.h"
 #include "solver/model/tear_law.h"
 
 #include <algorithm>
@@ -47,21 +48,48 @@ std::vector<Edit> write_pins(const PaintTarget& target, const std::vector<float>
     return changed_pins(target.document, target.place, now.on, now.off).edits;
 }
 
-// --- Resistance
+// --- Factors on values of the fabric
 
-/// The last description, if it lists vertices with factors: the one that the brush writes.
-const ResistanceDesc* painted_resistance(const SceneCloth& cloth) {
-    if (cloth.resistance.empty() || cloth.resistance.back().factors.empty()) return nullptr;
-    return &cloth.resistance.back();
+/// Descriptions of a cloth that give factors to particles: a ResistanceDesc or a WeightDesc each.
+template <class Desc>
+struct FactorList {
+    const std::vector<Desc>& all;
+    const char* key;  ///< of the list in the scene
+    const Json head;  ///< what a new description has beside its vertices and factors
+    const Parameter& limits;
+    bool (*counts)(const Desc&, const Json& head);  ///< whether a description is one of this value
+
+    /// The last one that counts, if it lists vertices with factors: the one that the brush writes.
+    const Desc* painted() const {
+        for (auto at = all.rbegin(); at != all.rend(); ++at)
+            if (counts(*at, head)) return at->factors.empty() ? nullptr : &*at;
+        return nullptr;
+    }
+};
+
+FactorList<ResistanceDesc> resistance_of(const PaintTarget& target) {
+    return {.all = described(target).resistance,
+            .key = "resistance",
+            .head = Json::object(),
+            .limits = resistance_factor_keys[0],
+            .counts = [](const ResistanceDesc&, const Json&) { return true; }};
+}
+
+FactorList<WeightDesc> weights_of(const PaintTarget& target, WeightOf of) {
+    return {.all = described(target).weights,
+            .key = "weights",
+            .head = Json{{"of", choice_names(weight_keys[0]).at(static_cast<std::size_t>(of))}},
+            .limits = weight_factor_keys[0],
+            .counts = [](const WeightDesc& desc, const Json& head) {
+                return head.at("of") == choice_names(weight_keys[0]).at(static_cast<std::size_t>(desc.of));
+            }};
 }
 
 // What the painted description does not list comes from boxes, colors and groups, which the model has evaluated.
-std::vector<float> read_resistance(const PaintTarget& target) {
-    std::vector<float> values(target.cloth.particles(), 1.0f);
-    if (const auto& law = target.frame.model->tear_law)
-        for (std::size_t p = 0; p < values.size() && p < law->inverse_resistance.size(); ++p)
-            values[p] = 1 / law->inverse_resistance[p];
-    const ResistanceDesc* painted = painted_resistance(described(target));
+// `values`: those of the model.
+template <class Desc>
+std::vector<float> read_factors(const PaintTarget& target, const FactorList<Desc>& list, std::vector<float> values) {
+    const Desc* painted = list.painted();
     if (!painted) return values;
     const auto& vertices = std::get<VertexPins>(painted->select).vertices;
     const auto& of_vertex = target.cloth.numbers->of_welded;
@@ -78,13 +106,12 @@ float short_number(float value) {
     return std::round(value / unit) * unit;
 }
 
-std::vector<Edit> write_resistance(const PaintTarget& target, const std::vector<float>& values,
-                                   const VertexSet& changed) {
-    const SceneCloth& cloth = described(target);
-    const ResistanceDesc* painted = painted_resistance(cloth);
-    const auto& limits = resistance_factor_keys[0];
+template <class Desc>
+std::vector<Edit> write_factors(const PaintTarget& target, const FactorList<Desc>& list,
+                                const std::vector<float>& values, const VertexSet& changed) {
+    const Desc* painted = list.painted();
     const auto limited = [&](float value) {
-        return std::clamp(value, static_cast<float>(limits.min), static_cast<float>(limits.max));
+        return std::clamp(value, static_cast<float>(list.limits.min), static_cast<float>(list.limits.max));
     };
     std::map<std::uint32_t, float> factors;
     if (painted) {
@@ -95,20 +122,54 @@ std::vector<Edit> write_resistance(const PaintTarget& target, const std::vector<
     for (const std::uint32_t p : changed)
         if (const std::uint32_t vertex = target.cloth.vertex_of[p]; vertex != none)
             factors[vertex] = limited(short_number(values[p]));
-    Json vertices = Json::array(), numbers = Json::array();
+    Json desc = list.head;
+    desc["vertices"] = Json::array(), desc["factors"] = Json::array();
     for (const auto& [vertex, factor] : factors) {
-        vertices.push_back(vertex);
-        numbers.push_back(number(factor));
+        desc["vertices"].push_back(vertex);
+        desc["factors"].push_back(number(factor));
     }
-    const std::string place =
-        target.place + "/resistance/" + (painted ? std::to_string(cloth.resistance.size() - 1) : "-");
-    return {{place, Json{{"vertices", vertices}, {"factors", numbers}}}};
+    const std::string place = painted ? std::to_string(painted - list.all.data()) : "-";
+    return {{target.place + '/' + list.key + '/' + place, std::move(desc)}};
+}
+
+// --- Resistance
+
+std::vector<float> read_resistance(const PaintTarget& target) {
+    std::vector<float> values(target.cloth.particles(), 1.0f);
+    if (const auto& law = target.frame.model->tear_law)
+        for (std::size_t p = 0; p < values.size() && p < law->inverse_resistance.size(); ++p)
+            values[p] = 1 / law->inverse_resistance[p];
+    return read_factors(target, resistance_of(target), std::move(values));
+}
+
+std::vector<Edit> write_resistance(const PaintTarget& target, const std::vector<float>& values,
+                                   const VertexSet& changed) {
+    return write_factors(target, resistance_of(target), values, changed);
 }
 
 std::vector<Edit> prepare_resistance(const PaintTarget& target) {
     const Tearing tearing = described(target).tearing;
     if (tearing == Tearing::split || tearing == Tearing::erode) return {};
     return {{target.place + "/tearing", "split"}};
+}
+
+// --- Weights
+
+template <WeightOf of>
+std::vector<float> read_weights(const PaintTarget& target) {
+    const ClothWeights& weights = *target.frame.model->weights;
+    const auto& known = (of == WeightOf::density   ? weights.density
+                         : of == WeightOf::stretch ? weights.stretch
+                                                   : weights.bend)
+                            .of_particles;
+    std::vector<float> values(target.cloth.particles(), 1.0f);
+    std::copy_n(known.begin(), std::min(known.size(), values.size()), values.begin());
+    return read_factors(target, weights_of(target, of), std::move(values));
+}
+
+template <WeightOf of>
+std::vector<Edit> write_weights(const PaintTarget& target, const std::vector<float>& values, const VertexSet& changed) {
+    return write_factors(target, weights_of(target, of), values, changed);
 }
 
 // --- Groups
@@ -125,6 +186,22 @@ std::vector<Edit> write_group(const PaintTarget& target, const std::vector<float
     const VertexSet after = without(with(before, now.on), now.off);
     if (after.empty()) return group_removal(target.document, target.place, target.group);
     return group_edits(target.document, target.place, target.group, after);
+}
+
+/// A factor on a value of the fabric.
+template <WeightOf of>
+constexpr PaintKind weight_kind(const char* name, const char* label, const char* what, float usual) {
+    return {.name = name,
+            .label = label,
+            .what = what,
+            .neutral = 1,
+            .least = 0.01f,
+            .most = 100,
+            .usual = usual,
+            .scale_low = "0.1 × the fabric",
+            .scale_high = "10 ×",
+            .read = read_weights<of>,
+            .write = write_weights<of>};
 }
 
 constexpr PaintKind kinds[] = {
@@ -148,6 +225,10 @@ constexpr PaintKind kinds[] = {
      .read = read_resistance,
      .write = write_resistance,
      .prepare = prepare_resistance},
+    weight_kind<WeightOf::density>("density", "Density", "factor on the mass per area; 1 is the fabric", 4),
+    weight_kind<WeightOf::stretch>("stretch", "Stretch",
+                                   "factor on the stiffness against stretch and shear; 1 is the fabric", 10),
+    weight_kind<WeightOf::bend>("bend", "Bend", "factor on the stiffness against bending; 1 is the fabric", 10),
     {.name = "group",
      .label = "Group",
      .what = "which vertices a group has",

@@ -23,6 +23,7 @@ const std::vector<OneOf>& alternatives_of_objects() {
         {"/cloths/*/mesh", {"grid", "sphere", "box", "file"}},
         {"/cloths/*/pins/*", {"vertices", "group", "box", "color"}},
         {"/cloths/*/resistance/*", {"vertices", "group", "box", "color", "channel"}},
+        {"/cloths/*/weights/*", {"vertices", "group", "box", "color", "channel"}},
         {"/cloths/*/cuts/*", {"points", "plane"}},
         {"/cloths/*/seams/*", {"points", "plane"}},
         {"/stitches/*/a", {"vertices", "points"}},
@@ -42,6 +43,8 @@ constexpr Companion companions[] = {
     {"/cloths/*/pins/*", "threshold", "color"},
     {"/cloths/*/resistance/*", "threshold", "color"},
     {"/cloths/*/resistance/*", "factors", "vertices"},
+    {"/cloths/*/weights/*", "threshold", "color"},
+    {"/cloths/*/weights/*", "factors", "vertices"},
 };
 
 /// Keys of a cloth in the order in which they are shown before all others.
@@ -61,6 +64,7 @@ const std::vector<Parts>& parts_of_keys() {
         {"/cloths/*/fabric", "stretch", {"warp", "weft"}},
         {"/cloths/*/fabric", "compression", {"warp", "weft"}},
         {"/cloths/*/fabric", "strength", {"warp", "weft"}},
+        {"/cloths/*/fabric", "stretch_limit", {"warp", "weft"}},
         {"/cloths/*/fabric", "bend", {"warp", "bias", "weft"}},
         {"/cloths/*/fabric", "stiffness", {"stretch", "compress", "bend"}},
         {"/cloths/*/mesh/grid", "size", {"x", "z"}},
@@ -315,6 +319,7 @@ std::optional<Json> new_element(const Document& document, const std::string& lis
     if (pattern == "/cloths/*/cuts") return Json{{"plane", {{"normal", {1, 0, 0}}}}};
     if (pattern == "/cloths/*/seams") return Json{{"strength", 100}, {"plane", {{"normal", {1, 0, 0}}}}};
     if (pattern == "/cloths/*/resistance") return Json{{"factor", 0.5}, {"vertices", {0}}};
+    if (pattern == "/cloths/*/weights") return Json{{"of", "density"}, {"factor", 2}, {"vertices", {0}}};
     if (pattern == "/air/wind") return Json{{"velocity", {3, 0, 0}}};
     if (pattern.ends_with("/motion") || pattern.ends_with("/keys")) return Json{{"time", next_time()}};
     if (pattern == "/stitches" && !document.scene.cloths.empty()) {

@@ -77,5 +77,15 @@ TEST(MotionOfColliders, shows_the_values_of_a_body_alone) {
     EXPECT_EQ(value_of(*body, place + "/dynamic", values.values[1]), Json(1000));
 }
 
+// Two numbers of a fabric are never along x and y.
+TEST(PartsOfValues, of_fabrics_have_names_of_their_own) {
+    for (const FabricTable& table : fabric_tables()) {
+        for (const Parameter& parameter : table.parameters) {
+            if (parameter.count < 2) continue;
+            EXPECT_EQ(parts_of("/cloths/0/fabric", parameter).size(), parameter.count) << parameter.key;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace weft::editor

@@ -132,7 +132,7 @@ void ToolPanel::groups(Ui& ui, Session& session, ViewPanel& view) {
         group_ = names[at];
         std::string name = group_;
         const Change typed =
-            text(ui, {.name = "group_name", .label = "Name", .what = "Pins and resistance can name it"}, name);
+            text(ui, {.name = "group_name", .label = "Name", .what = "Pins, resistance and weights can name it"}, name);
         if (typed == Change::finished && name != group_) {
             const auto edits = group_renaming(*session.document(), cloth, group_, name);
             session.change("Rename group " + group_ + " to " + name, edits);

@@ -133,9 +133,11 @@ TEST(Strokes, are_undone_and_redone_to_the_bit) {
     const std::string first = stage.hash();
     std::vector<std::string> hashes{first};
     const std::tuple<const char*, VertexSet, float, const char*> strokes[] = {
-        {"pins", {60, 61}, 1, ""},   {"resistance", {50, 51, 52}, 0.25f, ""},
-        {"group", {3, 4}, 1, "hem"}, {"resistance", {52, 53}, 3.0f, ""},
-        {"pins", {0, 60}, 0, ""},    {"group", {3}, 0, "hem"},
+        {"pins", {60, 61}, 1, ""},     {"resistance", {50, 51, 52}, 0.25f, ""},
+        {"group", {3, 4}, 1, "hem"},   {"resistance", {52, 53}, 3.0f, ""},
+        {"density", {70, 71}, 20, ""}, {"stretch", {70}, 0.5f, ""},
+        {"bend", {72, 73}, 3, ""},     {"density", {71, 72}, 0.1f, ""},
+        {"pins", {0, 60}, 0, ""},      {"group", {3}, 0, "hem"},
         {"group", {4}, 0, "hem"}};
     for (const auto& [kind, at, value, group] : strokes) {
         const std::uint64_t frame = stage.frame();
@@ -147,6 +149,8 @@ TEST(Strokes, are_undone_and_redone_to_the_bit) {
         hashes.push_back(stage.hash());
     }
     EXPECT_EQ(painted.values("resistance")[50], 0.25f) << "an earlier stroke stays";
+    EXPECT_EQ(painted.values("density")[70], 20) << "an earlier stroke stays";
+    EXPECT_EQ(cloth_of(*stage.document()).weights.size(), 3u) << "one description of each value";
     EXPECT_FALSE(find(stage.document()->json, "/cloths/0/groups")) << "the last vertex takes the group along";
     for (std::size_t i = 0; i < std::size(strokes); ++i) ASSERT_TRUE(stage.apply(Undo{}));
     EXPECT_EQ(stage.hash(), first);
@@ -166,7 +170,8 @@ TEST(Strokes, move_nothing) {
         return std::vector<Vec4>(now.begin(), now.end());
     };
     const std::vector<Vec4> before = positions();
-    for (const auto& [kind, value] : {std::pair{"resistance", 0.5f}, {"pins", 1.0f}, {"group", 1.0f}}) {
+    for (const auto& [kind, value] :
+         {std::pair{"resistance", 0.5f}, {"density", 9.0f}, {"bend", 0.1f}, {"pins", 1.0f}, {"group", 1.0f}}) {
         ASSERT_TRUE(stage.apply(ChangeScene{kind, painted.stroke(kind, {40, 41}, value, "hem"), 0}));
         const std::vector<Vec4> now = positions();
         for (std::size_t p = 0; p < now.size(); ++p) EXPECT_EQ(now[p].xyz(), before[p].xyz()) << kind << ' ' << p;

@@ -11,7 +11,7 @@ const SceneCloth& scene_cloth(const Document& document, const std::string& cloth
     return document.scene.cloths.at(std::stoul(cloth.substr(cloth.rfind('/') + 1)));
 }
 
-/// The vertices that a pin or a resistance lists; nullopt: it selects them by box or color.
+/// The vertices that a pin, a resistance or a weight lists; nullopt: it selects them by box or color.
 std::optional<VertexSet> listed(const Json& one, const Document& document, const std::string& cloth) {
     if (one.contains("vertices")) return make_set(one["vertices"].get<std::vector<std::uint32_t>>());
     if (!one.contains("group")) return {};
@@ -19,10 +19,10 @@ std::optional<VertexSet> listed(const Json& one, const Document& document, const
     return group ? make_set(group->vertices) : VertexSet{};
 }
 
-/// Calls `name` for each pin and resistance that names the group.
+/// Calls `name` for each pin, resistance and weight that names the group.
 void for_users(const Document& document, const std::string& cloth, const std::string& group,
                const std::function<void(const std::string& place)>& name) {
-    for (const char* list : {"/pins", "/resistance"}) {
+    for (const char* list : {"/pins", "/resistance", "/weights"}) {
         const Json* all = find(document.json, cloth + list);
         for (std::size_t i = 0; all && i < all->size(); ++i)
             if ((*all)[i].value("group", "") == group) name(cloth + list + "/" + std::to_string(i));

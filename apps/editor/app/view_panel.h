@@ -29,7 +29,7 @@ enum class Tool : std::uint8_t {
     scale,
     cut,
     lasso,    ///< chooses vertices
-    brush,    ///< paints pins, resistance and groups
+    brush,    ///< paints pins, groups and factors
     anchors,  ///< pins that are applied together
 };
 

@@ -212,6 +212,10 @@ class RandomScene {
         for (PinDesc& pin : cloth.pins)
             if (auto* vertices = std::get_if<VertexPins>(&pin.select); vertices && !cloth.groups.empty() && maybe())
                 *vertices = {cloth.groups[0].vertices, cloth.groups[0].name};
+        for (std::uint32_t i = below(3); i > 0; --i) {
+            fill(weight_keys, &cloth.weights.emplace_back());
+            draw_painted(cloth.weights.back(), weight_factor_keys, of_a_file);
+        }
         if (cloth.tearing == Tearing::off) return;
         cloth.fabric.stretch.model = StretchModel::edges;  // membranes do not open
         for (std::uint32_t i = below(3); i > 0; --i) draw(cloth.cuts.emplace_back(), cut_keys);
@@ -221,17 +225,19 @@ class RandomScene {
                 if (cloth.seams.back().strength == 0) cloth.seams.back().strength = 5;  // the key is required
             }
         if (cloth.tearing == Tearing::cuts) return;
-        for (std::uint32_t i = below(3); i > 0; --i) draw(cloth.resistance.emplace_back(), of_a_file);
+        for (std::uint32_t i = below(3); i > 0; --i)
+            draw_painted(cloth.resistance.emplace_back(), resistance_factor_keys, of_a_file);
     }
 
-    void draw(ResistanceDesc& resistance, bool of_a_file) {
-        fill(resistance_factor_keys, &resistance);
+    template <class Desc>
+    void draw_painted(Desc& painted, std::span<const Parameter> keys, bool of_a_file) {
+        fill(keys, &painted);
         const std::uint32_t kind = below(of_a_file ? 4 : 2);
-        if (kind == 0) resistance.select = VertexPins{{below(4), below(4)}};
-        if (kind == 0 && maybe()) resistance.factors = {0.25f, 7};
-        if (kind == 1) resistance.select = BoxPins{{{-1e3f, -0.0f, -2.5f}, {1, 0.1f, 1e20f}}};
-        if (kind == 2) fill(color_pin_keys, &resistance.select.emplace<ColorPins>());
-        if (kind == 3) fill(painted_channel_keys, &resistance.select.emplace<PaintedChannel>());
+        if (kind == 0) painted.select = VertexPins{{below(4), below(4)}};
+        if (kind == 0 && maybe()) painted.factors = {0.25f, 7};
+        if (kind == 1) painted.select = BoxPins{{{-1e3f, -0.0f, -2.5f}, {1, 0.1f, 1e20f}}};
+        if (kind == 2) fill(color_pin_keys, &painted.select.template emplace<ColorPins>());
+        if (kind == 3) fill(painted_channel_keys, &painted.select.template emplace<PaintedChannel>());
     }
 
     template <class Path>

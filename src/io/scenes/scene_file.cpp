@@ -188,7 +188,9 @@ void read_path(ObjectReader& o, std::span<const Parameter> keys, Desc& desc) {
                  [&](ObjectReader& plane) { plane.values(cut_plane_keys, &desc.along.template emplace<PlaneCut>()); });
 }
 
-void read_resistance(ObjectReader& o, const Groups& groups, ResistanceDesc& result) {
+// `result`: a ResistanceDesc or a WeightDesc. `keys`: that of its factor.
+template <class Desc>
+void read_painted(ObjectReader& o, std::span<const Parameter> keys, const Groups& groups, Desc& result) {
     ColorPins by_color;
     GroupHead by_group;
     PaintedChannel painted;
@@ -197,7 +199,7 @@ void read_resistance(ObjectReader& o, const Groups& groups, ResistanceDesc& resu
     o.values(in_group_keys, &by_group);
     o.values(color_pin_keys, &by_color);
     o.values(painted_channel_keys, &painted);
-    o.values(resistance_factor_keys, &result);
+    o.values(keys, &result);
     const std::string_view kind = o.one_of({"vertices", "group", "box", "color", "channel"});
     read_selection(o, kind, by_color, by_group, groups, result.select);
     if (kind == "channel") result.select = painted;
@@ -215,8 +217,14 @@ void read_cloth(ObjectReader& o, SceneCloth& cloth) {
     o.objects("pins", [&](ObjectReader& pin) { read_pin(pin, cloth.groups, cloth.pins.emplace_back()); });
     o.objects("cuts", [&](ObjectReader& cut) { read_path(cut, cut_keys, cloth.cuts.emplace_back()); });
     o.objects("seams", [&](ObjectReader& seam) { read_path(seam, seam_keys, cloth.seams.emplace_back()); });
-    o.objects("resistance",
-              [&](ObjectReader& one) { read_resistance(one, cloth.groups, cloth.resistance.emplace_back()); });
+    o.objects("resistance", [&](ObjectReader& one) {
+        read_painted(one, resistance_factor_keys, cloth.groups, cloth.resistance.emplace_back());
+    });
+    o.objects("weights", [&](ObjectReader& one) {
+        WeightDesc& weight = cloth.weights.emplace_back();
+        one.values(weight_keys, &weight);
+        read_painted(one, weight_factor_keys, cloth.groups, weight);
+    });
     read_material(o, default_material(cloth), cloth.material);
 }
 

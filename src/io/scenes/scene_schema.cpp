@@ -33,6 +33,7 @@ const Kinds kinds[] = {
     {"/cloths/*/cuts/*", {"points", "plane"}},
     {"/cloths/*/seams/*", {"points", "plane"}},
     {"/cloths/*/resistance/*", {"vertices", "group", "box", "color", "channel"}},
+    {"/cloths/*/weights/*", {"vertices", "group", "box", "color", "channel"}},
     {"/colliders/*", {std::begin(shape_keys), std::end(shape_keys)}},
     {"/colliders/*/motion", {"keys", "dynamic"}},
     {"/stitches/*/a", {"vertices", "points"}},

@@ -151,6 +151,8 @@ TEST(SceneSchema, TakesWhatTheReaderTakes) {
             with_cloth(R"("tearing": "split", "seams": [ { "strength": 5, "tear_energy": 1, "plane": {} } ])"),
             with_cloth(R"("tearing": "erode", "resistance": [ { "vertices": [0, 1], "factor": 0.5 } ])"),
             with_cloth(R"("tearing": "erode", "resistance": [ { "vertices": [0, 1], "factors": [0.5, 7] } ])"),
+            with_cloth(R"("weights": [ { "of": "density", "vertices": [0, 1], "factors": [0.5, 7] },
+                                       { "of": "bend", "factor": 2, "box": { "min": [0, 0, 0], "max": [1, 1, 1] } } ])"),
             with_cloth(R"("groups": [ { "name": "hem", "vertices": [0, 1] } ], "pins": [ { "group": "hem" } ])"),
             with_cloth(
                 R"("mesh": { "file": "a.obj" }, "tearing": "split", "resistance": [ { "channel": "red", "factor": 2 },
@@ -240,6 +242,9 @@ TEST(SceneSchema, RefusesWhatTheReaderRefuses) {
              with_cloth(R"("tearing": "split", "resistance": [ { "factor": 2 } ])"),
              with_cloth(R"("tearing": "split", "resistance": [ { "factor": 0, "vertices": [0] } ])"),
              with_cloth(R"("tearing": "split", "resistance": [ { "channel": "hue" } ])"),
+             with_cloth(R"("weights": [ { "factor": 2, "vertices": [0] } ])"),
+             with_cloth(R"("weights": [ { "of": "color", "factor": 2, "vertices": [0] } ])"),
+             with_cloth(R"("weights": [ { "of": "bend", "factor": 0, "vertices": [0] } ])"),
              with_cloth(R"("tearing": "split", "resistance": [ { "box": { "min": 0, "max": 1 }, "factors": [1] } ])"),
              with_cloth(R"("tearing": "split", "resistance": [ { "vertices": [0], "factors": [0] } ])"),
              with_cloth(R"("tearing": "rip")"),
@@ -353,6 +358,7 @@ TEST(SceneSchema, KnowsTheKindsThatTheReaderKnows) {
               names_wanted(with_cloth(R"("tearing": "split", "seams": [ { "strength": 1 } ])")));
     EXPECT_EQ(names_offered("/cloths/*/resistance/*"),
               names_wanted(with_cloth(R"("tearing": "split", "resistance": [ {} ])")));
+    EXPECT_EQ(names_offered("/cloths/*/weights/*"), names_wanted(with_cloth(R"("weights": [ { "of": "bend" } ])")));
     EXPECT_EQ(names_offered("/colliders/*"), names_wanted(with_collider("")));
 }
 

@@ -54,7 +54,8 @@ class SceneWriter {
     void selection(JsonNode& node, const Select& select, const std::string& place);
     template <class Desc>
     JsonNode path(std::span<const Parameter> keys, const Desc& desc, const std::string& place);
-    JsonNode resistance(const ResistanceDesc& desc, const std::string& place);
+    template <class Desc>
+    void painted(JsonNode& node, std::span<const Parameter> keys, const Desc& desc, const std::string& place);
     JsonNode cloth(const SceneCloth& cloth, std::size_t index, const std::string& place);
     template <class Key>
     Child motion(const std::vector<Key>& keys, std::span<const Parameter> table, const Key& like,
@@ -284,15 +285,15 @@ JsonNode SceneWriter::path(std::span<const Parameter> keys, const Desc& desc, co
     });
 }
 
-JsonNode SceneWriter::resistance(const ResistanceDesc& desc, const std::string& place) {
-    JsonNode node = JsonNode::object();
+// `desc`: a ResistanceDesc or a WeightDesc. `keys`: that of its factor.
+template <class Desc>
+void SceneWriter::painted(JsonNode& node, std::span<const Parameter> keys, const Desc& desc, const std::string& place) {
     selection(node, desc.select, place);
     if (const auto* painted = std::get_if<PaintedChannel>(&desc.select))
         node.add("channel", value(painted_channel_keys[0], painted, at(place, "channel")));
     if (!desc.factors.empty()) node.add("factors", numbers_of(desc.factors));
-    const ResistanceDesc defaults;
-    values(node, resistance_factor_keys, &desc, &defaults, place);
-    return node;
+    const Desc defaults;
+    values(node, keys, &desc, &defaults, place);
 }
 
 JsonNode SceneWriter::cloth(const SceneCloth& desc, std::size_t index, const std::string& place) {
@@ -320,7 +321,16 @@ JsonNode SceneWriter::cloth(const SceneCloth& desc, std::size_t index, const std
             }));
         if (key == "resistance")
             return unless_empty(list(desc.resistance, where, [&](const ResistanceDesc& one, const std::string& below) {
-                return resistance(one, below);
+                JsonNode node = JsonNode::object();
+                painted(node, resistance_factor_keys, one, below);
+                return node;
+            }));
+        if (key == "weights")
+            return unless_empty(list(desc.weights, where, [&](const WeightDesc& one, const std::string& below) {
+                JsonNode node = JsonNode::object();
+                node.add("of", value(weight_keys[0], &one, at(below, "of")));
+                painted(node, weight_factor_keys, one, below);
+                return node;
             }));
         assert(key == "pins");
         return unless_empty(

@@ -43,7 +43,10 @@ bool bends(const Topology& topology, const Hinge& hinge, BendEdges choice) {
 HingeShape shape_of(const RestShape& rest, const Hinge& hinge) {
     const Vec3 e = rest.topology.rest_positions[hinge.b] - rest.topology.rest_positions[hinge.a];
     // The cloth curves perpendicular to the edge: an edge along the weft bends the warp.
-    return {1 - rest.cos2_to_warp[hinge.edge], rest.area_at_edge[hinge.edge], dot(e, e)};
+    float area = rest.area_at_edge[hinge.edge];
+    // Compliance is proportional to the area, so weights become part of it.
+    if (!rest.bend_weight.empty()) area *= area / weighted_area_at(rest, hinge.edge, rest.bend_weight);
+    return {1 - rest.cos2_to_warp[hinge.edge], area, dot(e, e)};
 }
 
 float angle_at_rest(const Topology& topology, const Hinge& hinge, const BendMaterial& material) {

@@ -10,7 +10,7 @@ namespace weft {
 /// The geometry from which a hinge's compliance is computed.
 struct HingeShape {
     float across = 0;        ///< cos² of the angle between the warp and the direction across the edge
-    float area = 0;          ///< m², of both triangles
+    float area = 0;          ///< m², of both triangles, over their weight
     float edge_squared = 0;  ///< m²
 };
 

@@ -114,7 +114,7 @@ Three best_springs(const SymmetricMatrix& m, const Three& length2) {
 
 }  // namespace
 
-MembraneSplit split_membrane(const MembraneShape& shape, const StretchMaterial& material) {
+MembraneSplit split_membrane(const MembraneShape& shape, const StretchMaterial& material, double weight) {
     Three length2{};
     for (std::size_t i = 0; i < 3; ++i)
         length2[i] = shape.along_warp[i] * shape.along_warp[i] + shape.along_weft[i] * shape.along_weft[i];
@@ -131,11 +131,16 @@ MembraneSplit split_membrane(const MembraneShape& shape, const StretchMaterial& 
             for (std::size_t j = 0; j < 3; ++j) split.remainder[i][j] = split.remainder[j][i] = 0;
         split.stretched[i] = pulled[i] * length2[i], split.compressed[i] = pushed[i] * length2[i];
     }
+    if (weight == 1) return split;
+    for (std::size_t i = 0; i < 3; ++i) {
+        split.stretched[i] *= weight, split.compressed[i] *= weight;
+        for (double& number : split.remainder[i]) number *= weight;
+    }
     return split;
 }
 
 MembraneSplit split_membrane(const RestShape& rest, std::uint32_t triangle, const StretchMaterial& material) {
-    return split_membrane(shape_of(rest, triangle), material);
+    return split_membrane(shape_of(rest, triangle), material, weight_at(rest.stretch_weight, triangle));
 }
 
 }  // namespace weft

@@ -22,7 +22,8 @@ struct MembraneShape {
     std::array<double, 3> along_warp{}, along_weft{};
 };
 
-MembraneSplit split_membrane(const MembraneShape& shape, const StretchMaterial& material);
+/// `weight`: factor on all stiffnesses.
+MembraneSplit split_membrane(const MembraneShape& shape, const StretchMaterial& material, double weight = 1);
 MembraneSplit split_membrane(const RestShape& rest, std::uint32_t triangle, const StretchMaterial& material);
 
 }  // namespace weft

@@ -17,11 +17,15 @@ struct MomentNumbers {
     std::array<float, coupled_numbers> coupling{};
 };
 
-MomentNumbers numbers_of(const std::array<HingeSide, 2>& sides, const SheetStiffness& stiffness) {
+// `weights`: factors on the stiffness of both triangles.
+MomentNumbers numbers_of(const std::array<HingeSide, 2>& sides, const SheetStiffness& stiffness,
+                         const std::array<double, 2>& weights = {1, 1}) {
     MomentNumbers numbers;
     double total = 0, rate = 1;
     for (std::size_t s = 0; s < 2; ++s) {
-        const SideCompliance compliance = compliance_of(sides[s], stiffness);
+        SideCompliance compliance = compliance_of(sides[s], stiffness);
+        compliance.at_once /= weights[s], compliance.own /= weights[s];
+        for (double& by : compliance.by) by /= weights[s];
         numbers.fields[s] = static_cast<float>(compliance.at_once);
         numbers.coupling[3 * s] = static_cast<float>(compliance.own);
         for (std::size_t k = 0; k < 2; ++k) numbers.coupling[3 * s + 1 + k] = static_cast<float>(compliance.by[k]);
@@ -45,10 +49,15 @@ RowList build_moment(const RestShape& rest, const MomentMaterial& material) {
         return rows;
     }
     std::vector<CoupledHinge> hinges = couple_hinges(rest);
+    const auto weights_of = [&](std::size_t h) {
+        const Hinge& hinge = rest.topology.hinges[h];
+        return std::array{double{weight_at(rest.bend_weight, hinge.triangle0)},
+                          double{weight_at(rest.bend_weight, hinge.triangle1)}};
+    };
     std::vector<std::uint32_t> row_of(hinges.size(), none);
     std::uint32_t count = 0;
     for (std::size_t h = 0; h < hinges.size(); ++h)
-        if (numbers_of(hinges[h].side, stiffness).fields[2] > 0) row_of[h] = count++;
+        if (numbers_of(hinges[h].side, stiffness, weights_of(h)).fields[2] > 0) row_of[h] = count++;
     // A hinge between degenerate triangles has no constraint, so nothing is coupled with it.
     for (CoupledHinge& hinge : hinges)
         for (std::size_t s = 0; s < 2; ++s)
@@ -58,7 +67,7 @@ RowList build_moment(const RestShape& rest, const MomentMaterial& material) {
     for (std::size_t h = 0; h < hinges.size(); ++h) {
         if (row_of[h] == none) continue;
         const Hinge& hinge = rest.topology.hinges[h];
-        const auto& [fields, coupling] = numbers_of(hinges[h].side, stiffness);
+        const auto& [fields, coupling] = numbers_of(hinges[h].side, stiffness, weights_of(h));
         rows.add({hinge.a, hinge.b, hinge.c, hinge.d},
                  {angle_at_rest(rest.topology, hinge, material), fields[0], fields[1], fields[2]});
         for (const HingeSide& side : hinges[h].side)

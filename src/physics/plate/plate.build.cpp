@@ -61,10 +61,11 @@ Matrix stiffness_of(const RestShape& rest, std::uint32_t triangle, const BendMat
     }
     const double b_warp = material.bend[0], b_bias = material.bend[1], b_weft = material.bend[2];
     const double stiffness[3] = {b_warp, b_weft, std::max(0.0, 4 * b_bias - b_warp - b_weft)};
+    const double weighted = area * double{weight_at(rest.bend_weight, triangle)};
     Matrix m{};
     for (int k = 0; k < 3; ++k) {
         for (int i = 0; i < 3; ++i) {
-            for (int j = 0; j < 3; ++j) m[i][j] += area * stiffness[k] * curvature[k][i] * curvature[k][j];
+            for (int j = 0; j < 3; ++j) m[i][j] += weighted * stiffness[k] * curvature[k][i] * curvature[k][j];
         }
     }
     return m;

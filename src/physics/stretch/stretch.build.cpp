@@ -101,7 +101,8 @@ RowList build_stretch(const RestShape& rest, const StretchMaterial& material) {
         const float length_at_rest =
             length(rest.topology.rest_positions[edge.b] - rest.topology.rest_positions[edge.a]);
         const float cos2 = rest.cos2_to_warp[e];
-        const float strip = rest.area_at_edge[e] / (length_at_rest * length_at_rest);
+        // Stiffness is proportional to the area, so weights become part of it.
+        const float strip = weighted_area_at(rest, e, rest.stretch_weight) / (length_at_rest * length_at_rest);
         const StretchLaw::Compliances compliances = membrane ? of_membrane[e] : law.at(cos2, strip);
         if (compliances.none()) {
             rows.left_out.push_back(cos2);

@@ -379,12 +379,12 @@ WEFT_FN void tear_weigh(TearCloth c, uint vertex)
     uint begin = tear_ring(c, vertex), end = tear_ring(c, vertex + 1u);
     for (uint i = begin; i < end; ++i) {
         uint t = tear_triangle(c, tear_corner(c, i));
-        if (tear_face_area(c, t) > real(0) && tear_lives(c, t)) tear_set_mass(c, tear_face(c, tear_corner(c, i)), real(0));
+        if (tear_face_mass(c, t) > real(0) && tear_lives(c, t)) tear_set_mass(c, tear_face(c, tear_corner(c, i)), real(0));
     }
     for (uint i = begin; i < end; ++i) {
         uint particle = tear_face(c, tear_corner(c, i)), t = tear_triangle(c, tear_corner(c, i));
-        real area = tear_face_area(c, t);
-        if (area > real(0) && tear_lives(c, t)) tear_set_mass(c, particle, tear_mass(c, particle) + tear_density(c) * area / real(3));
+        real mass = tear_face_mass(c, t);
+        if (mass > real(0) && tear_lives(c, t)) tear_set_mass(c, particle, tear_mass(c, particle) + mass / real(3));
     }
 }
 

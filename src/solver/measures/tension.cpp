@@ -173,8 +173,12 @@ TensionSummary TensionMeter::measure(const Frame& frame) {
         Entry& entry = entries_[i];
         const ClothModel& model = *cloth.model;
         if (entry.topology_version != cloth.topology_version || entry.particle_count != model.particle_count ||
-            !(entry.fabric == model.fabric))
-            entry = {make_stress_table(model, cloth.triangles), model.fabric, cloth.topology_version,
+            !(entry.fabric == model.fabric) || entry.weights != model.weights || entry.paint != model.tear_paint)
+            entry = {make_stress_table(model, cloth.triangles),
+                     model.fabric,
+                     model.weights,
+                     model.tear_paint,
+                     cloth.topology_version,
                      model.particle_count};
         const ClothTension of_cloth = measure_tension(entry.table, cloth.positions);
         if (has_limit(entry.table)) keep_larger(summary.load, of_cloth.load, i);

@@ -41,6 +41,8 @@ class TensionMeter {
     struct Entry {
         StressTable table;
         Fabric fabric;
+        std::shared_ptr<const ClothWeights> weights;
+        std::shared_ptr<const TearPaint> paint;
         std::uint64_t topology_version = 0;
         std::uint32_t particle_count = 0;
     };

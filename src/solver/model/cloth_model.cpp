@@ -210,15 +210,32 @@ void choose_tethers(ClothModel& model, const RestShape& rest) {
     tether.use = pays ? Tethers::on : Tethers::off;
 }
 
-// Builds all parts of the model that depend on fabric and pins.
-Result<void> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology& topology, const Fabric& fabric,
-                     const ClothPins& pins, const ColoringOptions& coloring, const ClothLayout& layout,
-                     const ClothReserve& reserve) {
-    const float density = fabric.body.density;
-    if (auto sound = check_density(density); !sound) return sound;
+Result<void> check_weights(const ClothWeights& weights, std::size_t triangles) {
+    for (const auto& [name, factors] :
+         {std::pair{"density", &weights.density}, {"stretch", &weights.stretch}, {"bend", &weights.bend}}) {
+        const std::string where = std::string("weights of ") + name;
+        if (factors->empty()) continue;
+        if (factors->of_triangles.size() != triangles)
+            return Error{where, "must be one per triangle, " + std::to_string(triangles) + ", got " +
+                                    std::to_string(factors->of_triangles.size())};
+        for (const float factor : factors->of_triangles)
+            if (!(factor > 0 && std::isfinite(factor))) return Error{where, "must be > 0, got " + number_text(factor)};
+    }
+    return {};
+}
+
+// Builds all parts of the model that depend on fabric, weights and pins.
+Result<void> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology& topology, const ClothChange& change,
+                     const ColoringOptions& coloring, const ClothReserve& reserve) {
+    const ClothPins& pins = change.pins;
+    const ClothLayout& layout = change.layout;
+    if (auto sound = check_density(change.fabric.body.density); !sound) return sound;
+    if (auto sound = check_weights(change.weights, topology.triangles.size()); !sound) return sound;
     BuildClock clock(model.build_times);
-    model.fabric = fabric;
-    model.tethers_asked = fabric.tether.use;
+    model.fabric = change.fabric;
+    model.weights = std::make_shared<const ClothWeights>(change.weights);
+    model.collision = change.collision;
+    model.tethers_asked = change.fabric.tether.use;
     model.particle_count = topology.particle_count;
     model.reserved = reserve;
     model.reserve = reserve.particles;
@@ -227,7 +244,9 @@ Result<void> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology
 
     RestShape rest = make_rest_shape(mesh, topology);
     lay_out_faces(model, rest);
-    model.mass = lump_masses(model.face_area, model.triangles(), model.particle_count, density);
+    rest.stretch_weight = change.weights.stretch.of_triangles;
+    rest.bend_weight = change.weights.bend.of_triangles;
+    model.mass = masses_of(model);
     AlignedVector<Vec4> start(model.capacity());
     if (auto placed = place_particles(model, topology, pins.particles, start); !placed) return placed;
     if (auto placed = place_anchors(model, pins.attachments, start); !placed) return placed;
@@ -238,7 +257,8 @@ Result<void> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology
     for (std::uint32_t p : pins.particles)
         if (p < model.particle_count) rest.pinned[p] = 1;
     model.extent = extent_of(topology);
-    rest.elasticity = model.elasticity = elasticity_of(model.fabric.stretch, density, model.extent);
+    rest.elasticity = model.elasticity = elasticity_of(model);
+    rest.mean_density = mean_density(model);
     clock.spent_on(BuildPart::rest);
 
     Hierarchy hierarchy;
@@ -284,11 +304,13 @@ Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc,
     auto model = std::make_shared<ClothModel>();
     model->name = std::move(desc.name);
     model->start_velocity = desc.start_velocity;
-    model->collision = desc.collision;
     model->build_times = desc.build_times;
-    if (auto done =
-            lay_out(*model, desc.mesh, topology, desc.fabric, desc.pins, desc.coloring, desc.layout, desc.reserve);
-        !done)
+    const ClothChange parts{.fabric = desc.fabric,
+                            .weights = std::move(desc.weights),
+                            .pins = std::move(desc.pins),
+                            .layout = desc.layout,
+                            .collision = desc.collision};
+    if (auto done = lay_out(*model, desc.mesh, topology, parts, desc.coloring, desc.reserve); !done)
         return done.errors();
     BuildClock clock(model->build_times);
     if (desc.render_mesh) {
@@ -338,13 +360,10 @@ Result<std::shared_ptr<const ClothModel>> with_attachments(const ClothModel& fro
 }
 
 Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& from, const TriangleMesh& mesh,
-                                                             const Topology& topology, const Fabric& fabric,
-                                                             const ClothPins& pins, const ClothLayout& layout,
-                                                             const ClothCollision& collision) {
+                                                             const Topology& topology, const ClothChange& change) {
     auto model = std::make_shared<ClothModel>();
     model->name = from.name;
     model->start_velocity = from.start_velocity;
-    model->collision = collision;
     model->binding = from.binding;
     model->tear_paint = from.tear_paint;
     model->parting = from.parting;
@@ -357,8 +376,7 @@ Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& f
     if (!from.copied_from.empty() && !from.parting)  // without its copies
         model->vertex_to_particle = std::vector<std::uint32_t>(
             from.vertex_to_particle.begin(), from.vertex_to_particle.begin() + std::ptrdiff_t(mesh.positions.size()));
-    if (auto done = lay_out(*model, mesh, topology, fabric, pins, {}, layout, from.reserved); !done)
-        return done.errors();
+    if (auto done = lay_out(*model, mesh, topology, change, {}, from.reserved); !done) return done.errors();
     if (model->parting) model->reset_mesh();
     return std::shared_ptr<const ClothModel>(std::move(model));
 }
@@ -485,10 +503,41 @@ std::vector<Vec4> start_velocities(const ClothModel& model) {
     return velocities;
 }
 
+float face_mass(const ClothModel& model, std::uint32_t triangle) {
+    const float mass = model.fabric.body.density * model.face_area[triangle];
+    return model.weights->density.empty() ? mass : mass * model.weights->density.at(triangle);
+}
+
 std::vector<float> face_masses(const ClothModel& model) {
     std::vector<float> masses(model.face_stride);
-    for (std::uint32_t t = 0; t < model.triangle_count; ++t) masses[t] = model.fabric.body.density * model.face_area[t];
+    for (std::uint32_t t = 0; t < model.triangle_count; ++t) masses[t] = face_mass(model, t);
     return masses;
+}
+
+StretchMaterial softest_stretch(const ClothModel& model) {
+    StretchMaterial material = model.fabric.stretch;
+    const float least = model.weights->stretch.least();
+    for (int k = 0; k < 2; ++k) material.stretch[k] *= least, material.compression[k] *= least;
+    material.shear *= least;
+    return material;
+}
+
+Elasticity elasticity_of(const ClothModel& model) {
+    return elasticity_of(softest_stretch(model), model.fabric.body.density * model.weights->density.most(),
+                         model.extent);
+}
+
+double mean_density(const ClothModel& model) {
+    const auto& factors = model.weights->density.of_triangles;
+    if (factors.empty()) return model.fabric.body.density;
+    double sum = 0;
+    for (const float factor : factors) sum += double{factor};
+    return double{model.fabric.body.density} * sum / static_cast<double>(factors.size());
+}
+
+AlignedVector<float> masses_of(const ClothModel& model) {
+    return lump_masses(model.face_area, model.triangles(), model.particle_count, model.fabric.body.density,
+                       model.weights->density.of_triangles);
 }
 
 }  // namespace weft

@@ -9,6 +9,7 @@
 #include "scene/fabric.h"
 #include "solver/model/binding.h"
 #include "solver/model/build_times.h"
+#include "solver/model/cloth_weights.h"
 #include "solver/model/constraint_table.h"
 #include "solver/model/faces_around.h"
 #include "solver/model/faces_by_tile.h"
@@ -78,6 +79,7 @@ struct ClothModelDesc {
     std::optional<TriangleMesh> render_mesh = {};  ///< drawn mesh, follows `mesh`; nullopt: `mesh` is drawn
     Vec3 start_velocity = {};                      ///< m/s
     Fabric fabric = {};
+    ClothWeights weights = {};
     ClothCollision collision = {};
     ClothPins pins = {};
     ClothLayout layout = {};
@@ -102,7 +104,8 @@ struct ClothModel {
     Binding binding;
     SharedArray<std::uint32_t> vertex_to_particle;  ///< as in Topology, and appended vertices; empty with a binding
     Fabric fabric;                                  ///< `tether.use` is on or off, never automatic
-    Tethers tethers_asked = Tethers::automatic;     ///< `tether.use` as requested
+    std::shared_ptr<const ClothWeights> weights = std::make_shared<ClothWeights>();
+    Tethers tethers_asked = Tethers::automatic;  ///< `tether.use` as requested
     ClothCollision collision;
 
     std::uint32_t particle_count = 0;
@@ -225,8 +228,18 @@ EdgesByDirection edges_by_direction(const ClothModel& model);
 /// capacity() elements; w is 0.
 std::vector<Vec4> start_velocities(const ClothModel& model);
 
+/// kg
+float face_mass(const ClothModel& model, std::uint32_t triangle);
 /// Mass of every triangle in kg; 0 for padding.
 std::vector<float> face_masses(const ClothModel& model);
+/// The stiffness of the fabric where its weight is the least.
+StretchMaterial softest_stretch(const ClothModel& model);
+/// For limits: of the softest place, under the load of a cloth that is as heavy as its heaviest place.
+Elasticity elasticity_of(const ClothModel& model);
+/// kg/m², mean over the triangles.
+double mean_density(const ClothModel& model);
+/// Mass of each particle, for the present triangles.
+AlignedVector<float> masses_of(const ClothModel& model);
 
 /// Builds a model. `topology` is that of `desc.mesh`. Fails if the density is ≤ 0 or not finite, if the inverse of a
 /// particle mass is not > 0 and finite in float, if a pinned or attached particle is out of range, if a compliance is
@@ -234,19 +247,25 @@ std::vector<float> face_masses(const ClothModel& model);
 /// out are not drawn either.
 Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc, Topology topology);
 
-/// Builds a model of the same mesh with another fabric, other pins, another layout or other collision. `mesh`
-/// and `topology` are those that `from` was built from.
+/// What differs in a model that change_cloth_model() builds.
+struct ClothChange {
+    Fabric fabric = {};
+    ClothWeights weights = {};
+    ClothPins pins = {};
+    ClothLayout layout = {};
+    ClothCollision collision = {};
+};
+
+/// Builds a model of the same mesh. `mesh` and `topology` are those that `from` was built from.
 Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& from, const TriangleMesh& mesh,
-                                                             const Topology& topology, const Fabric& fabric,
-                                                             const ClothPins& pins, const ClothLayout& layout = {},
-                                                             const ClothCollision& collision = {});
+                                                             const Topology& topology, const ClothChange& change);
 
 /// Returns the same constraints with the parameters of another fabric. Compliances, masses, inverse masses and
 /// elasticity have the bits that build_cloth_model() gives. All other arrays are shared with `from`, so coarse levels
 /// and tethers remain those of its fabric. Returns null if the fabric needs other constraints, or parameters that this
 /// function cannot compute: if a stiffness changes between zero and nonzero, if the stretch model, bending edges, bend
-/// model or rest angle change, if the stiffness of membranes or plates changes, or if the tether settings change. Fails
-/// like build_cloth_model().
+/// model or rest angle change, if the stiffness of membranes, plates or weighted moments changes, or if the tether
+/// settings change. Fails like build_cloth_model().
 Result<std::shared_ptr<const ClothModel>> with_fabric(const ClothModel& from, const Fabric& fabric);
 /// ClothModel::kept_floats() for a model that replaces another one: the shifts, if both have the same moment
 /// constraints.

@@ -92,7 +92,7 @@ TEST(ClothModel, draws_the_same_with_other_material) {
     const auto model = model_of(mesh, *topology);
     Fabric heavy;
     heavy.body.density = 1;
-    const auto changed = change_cloth_model(*model, model->mesh(), *topology, heavy, {});
+    const auto changed = change_cloth_model(*model, model->mesh(), *topology, {.fabric = heavy});
     ASSERT_TRUE(changed.ok());
     expect_drawn_as((*changed)->mesh(), mesh);
 }

@@ -377,7 +377,7 @@ Hierarchy build_hierarchy(const RestShape& rest, const Fabric& fabric, std::span
         pinned[p] = !(start[p].w > 0);
         mass[p] = pinned[p] ? 0 : 1.0 / static_cast<double>(start[p].w);
     }
-    PinLoads loads = find_pin_loads(graph, pinned_places(rest), mass, double{fabric.body.density},
+    PinLoads loads = find_pin_loads(graph, pinned_places(rest), mass, rest.mean_density,
                                     double{extent_of(rest.topology)}, rest.elasticity);
     while (true) {
         const bool far_apart = levels.empty() && finest == FinestLevel::every_fourth;

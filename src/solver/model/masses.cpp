@@ -18,10 +18,11 @@ bool has_inverse(float mass) {
 }  // namespace
 
 AlignedVector<float> lump_masses(std::span<const float> face_area, const TriangleView& triangles,
-                                 std::uint32_t particle_count, float density) {
+                                 std::uint32_t particle_count, float density, std::span<const float> weights) {
     std::vector<double> sum(particle_count);
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-        const double third = static_cast<double>(density) * face_area[t] / 3;
+        double third = static_cast<double>(density) * face_area[t] / 3;
+        if (!weights.empty()) third *= double{weights[t]};
         for (const std::uint32_t p : triangles[t]) sum[p] += third;
     }
     AlignedVector<float> mass(particle_count);

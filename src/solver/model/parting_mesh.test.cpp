@@ -182,7 +182,7 @@ TEST(PartingMesh, is_as_built_in_a_model_that_is_built_again) {
     ASSERT_TRUE(torn.ok());
     Fabric denser;
     denser.body.density = 0.3f;
-    auto again = change_cloth_model(**torn, mesh, *build_topology(mesh), denser, {});
+    auto again = change_cloth_model(**torn, mesh, *build_topology(mesh), {.fabric = denser});
     ASSERT_TRUE(again.ok());
     EXPECT_EQ((*again)->mesh(), built->mesh());
     EXPECT_EQ((*again)->vertex_to_particle, built->vertex_to_particle);

@@ -71,6 +71,7 @@ void rebuild_limits(ClothModel& model) {
     CurrentMesh mesh = current_mesh(model);
     RestShape rest = make_rest_shape(mesh.topology, std::move(mesh.area), std::move(mesh.warp));
     rest.elasticity = model.elasticity;
+    rest.mean_density = mean_density(model);
     rest.first_anchor = model.first_anchor();
     rest.pinned.resize(model.particle_count);
     for (std::uint32_t p = 0; p < model.particle_count; ++p) rest.pinned[p] = !(model.start[p].w > 0);

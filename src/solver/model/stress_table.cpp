@@ -48,11 +48,12 @@ double stiffness(float compliance) {
     return compliance > 0 ? 1 / static_cast<double>(compliance) : 0;
 }
 
-reference::TearSide make_side(const StretchLaw& law, const RestTriangle& rest, std::size_t k) {
+// `weight`: factor on the stiffness.
+reference::TearSide make_side(const StretchLaw& law, const RestTriangle& rest, std::size_t k, float weight) {
     const vec3 along = rest.corners[(k + 1) % 3] - rest.corners[k];
     const double length = std::sqrt(dot(along, along));
     const double x = dot(along, rest.warp) / length, y = dot(along, cross(rest.normal, rest.warp)) / length;
-    const StretchLaw::Compliances at = law.at(static_cast<float>(std::min(1.0, x * x)), 1);
+    const StretchLaw::Compliances at = law.at(static_cast<float>(std::min(1.0, x * x)), weight);
     const double play = law.play(static_cast<float>(std::min(1.0, x * x)), 1);
     return {.rest = length,
             .pull = stiffness(at.stretched),
@@ -63,14 +64,14 @@ reference::TearSide make_side(const StretchLaw& law, const RestTriangle& rest, s
 }
 
 // Gives the sides the springs of the membrane. `rest` has an area.
-void add_membrane(StressTable::Face& face, const RestTriangle& rest, const StretchMaterial& material) {
+void add_membrane(StressTable::Face& face, const RestTriangle& rest, const StretchMaterial& material, double weight) {
     const auto opposite = [](std::size_t k) { return (k + 2) % 3; };  // corner of side k
     MembraneShape shape;
     for (std::size_t k = 0; k < 3; ++k) {
         const reference::TearSide& side = face.sides[k];
         shape.along_warp[opposite(k)] = side.x * side.rest, shape.along_weft[opposite(k)] = side.y * side.rest;
     }
-    const MembraneSplit split = split_membrane(shape, material);
+    const MembraneSplit split = split_membrane(shape, material, weight);
     for (std::size_t k = 0; k < 3; ++k) {
         const double rest2 = face.sides[k].rest * face.sides[k].rest;
         face.sides[k].pull = split.stretched[opposite(k)] * rest2 / face.area;
@@ -242,13 +243,14 @@ StressTable make_stress_table(const ClothModel& model, const TriangleView& trian
     for (std::size_t i = 0; i < alive.size(); ++i) {
         const Triangle triangle = alive[i];
         const double area = model.face_area[numbers[i]];
+        const float weight = model.weights->stretch.at(numbers[i]);
         const RestTriangle rest = at_rest(model, triangles[numbers[i]], triangle, numbers[i]);
         if (!has_direction(rest.warp)) continue;
         StressTable::Face face{
             .triangle = numbers[i], .corners = {triangle[0], triangle[1], triangle[2]}, .area = area};
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t p = triangle[k];
-            face.sides[k] = make_side(law, rest, k);
+            face.sides[k] = make_side(law, rest, k, weight);
             around[p].push_back({static_cast<std::uint32_t>(table.faces.size()), static_cast<std::uint32_t>(k),
                                  rest.normal, rest.warp});
             normals[p] = normals[p] + rest.normal * area;
@@ -256,7 +258,7 @@ StressTable make_stress_table(const ClothModel& model, const TriangleView& trian
             table.area[p] += area;
             for (const std::uint32_t end : {p, triangle[(k + 1) % 3]}) lengths[end] += face.sides[k].rest, ++sides[end];
         }
-        if (table.membranes) add_membrane(face, rest, fabric.stretch);
+        if (table.membranes) add_membrane(face, rest, fabric.stretch, double{weight});
         table.faces.push_back(face);
     }
     const std::vector<std::uint8_t> rim = rim_of(edges, model.particle_count);

@@ -164,11 +164,8 @@ WEFT_FN uint tear_add_copy(TearCloth c, uint from) {
     c.arrays.copied_from.push_back(from);
     return c.arrays.particle_count++;
 }
-WEFT_FN real tear_face_area(TearCloth c, uint triangle) {
-    return c.model.face_area[triangle];
-}
-WEFT_FN real tear_density(TearCloth c) {
-    return c.model.fabric.body.density;
+WEFT_FN real tear_face_mass(TearCloth c, uint triangle) {
+    return face_mass(c.model, triangle);
 }
 WEFT_FN real tear_mass(TearCloth c, uint particle) {
     return c.arrays.mass[particle];

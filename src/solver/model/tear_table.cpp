@@ -156,7 +156,8 @@ class TearTableBuilder {
                     table_.second[std::size_t{slot} * half + row] = corner(edge.triangle1, ends[slot]);
             }
             if (edge.triangle1 == none) continue;
-            const float first = model_.face_area[edge.triangle0], second = model_.face_area[edge.triangle1];
+            const auto part = [&](std::uint32_t t) { return model_.face_area[t] * model_.weights->stretch.at(t); };
+            const float first = part(edge.triangle0), second = part(edge.triangle1);
             table_.first_part[row] = first / (first + second);
         }
     }

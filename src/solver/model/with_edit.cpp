@@ -245,8 +245,7 @@ class Editor {
             lay_out_around({std::move(around.offsets), std::move(around.items)}, model.face_stride));
         model_->faces_by_tile =
             std::make_shared<const FacesByTile>(lay_out_by_tile(model.triangles(), model.particle_count));
-        AlignedVector<float> mass =
-            lump_masses(model.face_area, model.triangles(), model.particle_count, model.fabric.body.density);
+        AlignedVector<float> mass = masses_of(model);
         AlignedVector<Vec4> start(model.start.begin(), model.start.end());
         for (std::uint32_t p = 0; p < model.particle_count; ++p) {
             if (offsets[p] == offsets[p + 1]) mass[p] = model.mass[p];

@@ -55,6 +55,7 @@ bool change_bending(ClothModel& model, const BendMaterial& material) {
         case BendModel::distance:
             return change_table(model, ConstraintKind::distance_bend, change_distance_bend, material);
         case BendModel::moment:
+            if (!model.weights->bend.empty()) break;  // its geometry has no weights
             return change_table(model, ConstraintKind::moment, change_moment, material);
         case BendModel::plate:
             break;  // needs a factorization per triangle; storing its input costs more than a rebuild
@@ -62,10 +63,11 @@ bool change_bending(ClothModel& model, const BendMaterial& material) {
     return false;
 }
 
-Result<void> change_masses(ClothModel& model, float before_density, float density) {
+// The model has its new fabric.
+Result<void> change_masses(ClothModel& model, float before_density) {
     const SharedArray<float> before = model.mass;
-    const float ratio = density / before_density;
-    AlignedVector<float> mass = lump_masses(model.face_area, model.triangles(), model.particle_count, density);
+    const float ratio = model.fabric.body.density / before_density;
+    AlignedVector<float> mass = masses_of(model);
     for (std::uint32_t p = 0; p < model.particle_count; ++p)
         if (!(mass[p] > 0)) mass[p] = before[p] * ratio;  // its triangles were removed (cloth_edit.h)
     weigh_opened(model, mass);
@@ -108,8 +110,8 @@ Result<std::shared_ptr<const ClothModel>> with_fabric(const ClothModel& from, co
     if (!same_stretch && !change_table(*model, ConstraintKind::stretch, change_stretch, stretch)) return other_rows;
     if (!same_bend && !change_bending(*model, fabric.bend)) return other_rows;
     if (!same_density)
-        if (auto changed = change_masses(*model, from.fabric.body.density, density); !changed) return changed.errors();
-    model->elasticity = elasticity_of(stretch, density, from.extent);
+        if (auto changed = change_masses(*model, from.fabric.body.density); !changed) return changed.errors();
+    model->elasticity = elasticity_of(*model);
     if (model->tear_law && (!same_stretch || !same_tearing(from.fabric.tear, fabric.tear)))
         model->tear_law = make_tear_law(*model);
     return std::shared_ptr<const ClothModel>(std::move(model));

@@ -49,7 +49,8 @@ double lambda_seconds(const WorldPlan& plan, double dt) {
 
 FrameLimits frame_limits(const ClothModel& model, std::span<const float> lambda, double substep_seconds,
                          std::span<const Vec4> positions) {
-    const float measured = tension_in(model.table(ConstraintKind::stretch), lambda, substep_seconds, model.fabric);
+    const float measured =
+        tension_in(model.table(ConstraintKind::stretch), lambda, substep_seconds, softest_stretch(model));
     // Limits always allow for the model's tension. The strain between pins includes the strain due to tension, so that
     // is divided out.
     const Elasticity& elastic = model.elasticity;

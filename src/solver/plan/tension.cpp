@@ -39,15 +39,15 @@ float start_of(std::uint32_t bin) {
 
 }  // namespace
 
-float straight_strain(const Fabric& fabric) {
-    const float both = std::min(fabric.stretch.stretch_limit[0], fabric.stretch.stretch_limit[1]);
-    return both > 0 ? std::max(fabric.stretch.stretch_limit[0], fabric.stretch.stretch_limit[1]) : no_straight_strain;
+float straight_strain(const StretchMaterial& material) {
+    const float both = std::min(material.stretch_limit[0], material.stretch_limit[1]);
+    return both > 0 ? std::max(material.stretch_limit[0], material.stretch_limit[1]) : no_straight_strain;
 }
 
 float tension_in(const ConstraintTable& stretch, std::span<const float> lambda, double substep_seconds,
-                 const Fabric& fabric) {
-    const double softest = std::min(fabric.stretch.stretch[0], fabric.stretch.stretch[1]);
-    if (fabric.stretch.inextensible || !(softest > 0) || !(substep_seconds > 0) || lambda.empty()) return 0;
+                 const StretchMaterial& material) {
+    const double softest = std::min(material.stretch[0], material.stretch[1]);
+    if (material.inextensible || !(softest > 0) || !(substep_seconds > 0) || lambda.empty()) return 0;
     // A constraint represents a strip about as wide as it is long, so its force divided by its length is a tension per
     // width, of its spring alone. The strain is that of the whole fabric. Strains are counted in bins, which gives the
     // same bits in every order.
@@ -55,7 +55,7 @@ float tension_in(const ConstraintTable& stretch, std::span<const float> lambda, 
     std::uint32_t count = 0;
     const float* const compliances = stretch.fields.data() + stretch.stride;
     const auto scale =
-        static_cast<float>(-1 / (substep_seconds * substep_seconds * StretchLaw(fabric.stretch).softest_spring()));
+        static_cast<float>(-1 / (substep_seconds * substep_seconds * StretchLaw(material).softest_spring()));
     for (std::uint32_t begin = 0; begin < stretch.stride; begin += 4 * lane_padding) {
         for (std::uint32_t row = begin; row < begin + lane_padding; ++row) {
             const bool stiff = !(compliances[row] < 0 && compliances[stretch.stride + row] < 0);
@@ -71,7 +71,7 @@ float tension_in(const ConstraintTable& stretch, std::span<const float> lambda, 
     // The upper end of the bin.
     const float strain = bin <= 1 ? 0 : start_of(bin);
     // At a large stretch, threads that turn toward the pull carry load too, and limits must not take it.
-    const float straight = straight_strain(fabric);
+    const float straight = straight_strain(material);
     const float of_cloth = strain > straight ? straight + (strain - straight) / stiffness_of_straight : strain;
     return strain * (1 + of_cloth) * static_cast<float>(softest);
 }

@@ -9,11 +9,12 @@
 namespace weft {
 
 /// Strain from which threads of both directions are straight (`stretch_limit`); very large if those of one never are.
-float straight_strain(const Fabric& fabric);
+float straight_strain(const StretchMaterial& material);
 
 /// Tension in N/m that 95 % of the constraints did not exceed in the last substep. `lambda`: of the table;
-/// `substep_seconds`: 0 before the first step. Samples every fourth packet of lane_padding rows.
+/// `substep_seconds`: 0 before the first step. `material`: softest_stretch() of the model. Samples every fourth packet
+/// of lane_padding rows.
 float tension_in(const ConstraintTable& stretch, std::span<const float> lambda, double substep_seconds,
-                 const Fabric& fabric);
+                 const StretchMaterial& material);
 
 }  // namespace weft

@@ -16,7 +16,7 @@ float tension_under(double tension, std::uint32_t spared = 0, const Fabric& fabr
         if (!table.is_real(row) || (spared && table.particles[row] / 2 % spared != 0)) continue;
         lambda[row] = static_cast<float>(-tension * 0.01 * h * h);
     }
-    return tension_in(table, lambda, h, fabric);
+    return tension_in(table, lambda, h, fabric.stretch);
 }
 
 TEST(Tension, is_what_pulls_at_the_rows) {

@@ -50,7 +50,7 @@ struct TearData {
     Floats sides;        // TearLaw::sides
     Floats couplings;    // TearLaw::couplings; null without membranes
     Floats area;         // TearLaw::area
-    Floats face_area;    // m2
+    Floats face_mass;    // kg, per triangle
     Uints faces;         // [corner]
     Vec4s position;      // of the cloth's particles
     Vec4s start;
@@ -86,7 +86,6 @@ struct TearData {
     float inverse_strength[2];
     float energy;
     float inverse_stretch;
-    float density;       // kg/m2
     float watched_part;
     uint erodes;
     uint has_seams;

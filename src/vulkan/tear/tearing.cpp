@@ -18,7 +18,7 @@ static_assert(WEFT_TEAR_KINDS == scalar::tear_kinds.size());
 // What the shaders read, as arrays of numbers.
 struct TearArrays {
     std::vector<std::uint32_t> entries, vertex, row_items;
-    std::vector<float> numbers, half_fields, mass, strayed;
+    std::vector<float> numbers, half_fields, mass, face_mass, strayed;
     std::vector<std::uint32_t> settled;
     std::array<std::vector<std::uint32_t>, WEFT_TEAR_KINDS> corners;
 
@@ -35,6 +35,7 @@ struct TearArrays {
         vertex.resize(all);
         mass.assign(model.mass.begin(), model.mass.end());
         mass.resize(all);
+        face_mass = face_masses(model);
         strayed.assign(model.strayed.begin(), model.strayed.end());
         strayed.resize(vertices);
         for (const TearTable::RowRef& ref : table.rows_at.items)
@@ -110,7 +111,7 @@ Result<void> Tearing::add(const ClothState& cloth, std::size_t member, const std
     const auto put = [&](std::uint64_t& address, Slot slot) { slots.push_back({&address, slot}); };
     put(data.ring, arena.add_array(table.ring_begin)), put(data.entries, arena.add_array(arrays.entries));
     put(data.numbers, arena.add_array(arrays.numbers)), put(data.sides, arena.add_array(law.sides));
-    put(data.area, arena.add_array(law.area)), put(data.face_area, arena.add_array(model.face_area));
+    put(data.area, arena.add_array(law.area)), put(data.face_mass, arena.add_array(arrays.face_mass));
     put(data.mass, arena.add_array(arrays.mass)), put(data.vertex, arena.add_array(arrays.vertex));
     put(data.strayed, arena.add_array(arrays.strayed)), put(data.watched, arena.reserve(all * word));
     put(data.loads, arena.reserve(all * sizeof(Vec4))), put(data.chosen, arena.reserve(all * word));
@@ -154,7 +155,7 @@ Result<void> Tearing::add(const ClothState& cloth, std::size_t member, const std
     data.first_particles = model.particle_count, data.all_particles = torn.particles;
     data.inverse_strength[0] = law.inverse_strength[0], data.inverse_strength[1] = law.inverse_strength[1];
     data.energy = law.tear_energy, data.inverse_stretch = law.inverse_stretch;
-    data.density = model.fabric.body.density, data.watched_part = watched_part_of_load;
+    data.watched_part = watched_part_of_load;
     data.erodes = model.reserved.erodes, data.has_seams = !law.seams.empty();
     data.has_couplings = !law.couplings.empty();
     const Slot of_kinds = torn.data_arena.add_array(kinds);

@@ -86,8 +86,7 @@ uint tear_add_copy(TearCloth c, uint from)
     tear_data.weights.at[copy] = tear_data.weights.at[from];
     return copy;
 }
-float tear_face_area(TearCloth c, uint triangle) { return tear_data.face_area.at[triangle]; }
-float tear_density(TearCloth c) { return tear_data.density; }
+float tear_face_mass(TearCloth c, uint triangle) { return tear_data.face_mass.at[triangle]; }
 float tear_mass(TearCloth c, uint particle) { return tear_data.mass.at[particle]; }
 void tear_set_mass(TearCloth c, uint particle, float mass) { tear_data.mass.at[particle] = mass; }
 
