@@ -80,7 +80,25 @@ void choose_size(Ui& ui, ExportChoices& choices) {
         for (std::uint32_t& side : choices.size) side += side % 2;
 }
 
+void choose_overlays(Ui& ui, ExportChoices& choices, std::span<const Overlay* const> overlays) {
+    if (overlays.empty()) return;
+    std::string names;
+    for (const Overlay* overlay : overlays) names += (names.empty() ? "" : ", ") + std::string(overlay->name);
+    std::ranges::replace(names, '_', ' ');
+    (void)flag(ui, {.name = "overlays", .label = "Overlays", .what = "Draws what the menu Overlays shows: " + names},
+               choices.overlays);
+    if (choices.overlays && exported_overlays(overlays, choices.recorded).size() < overlays.size())
+        muted_text(ui, "What contact does is not recorded: choose a new simulation to see it.");
+}
+
 }  // namespace
+
+std::vector<std::string> exported_overlays(std::span<const Overlay* const> overlays, bool recorded) {
+    std::vector<std::string> drawn;
+    for (const Overlay* overlay : overlays)
+        if (!recorded || overlay->needs == OverlayNeeds::nothing) drawn.emplace_back(overlay->name);
+    return drawn;
+}
 
 std::string seconds_text(std::uint64_t frames, double frame_rate) {
     return format_number(std::round(100 * static_cast<double>(frames) / frame_rate) / 100, "s");
@@ -91,7 +109,8 @@ void begin_export(ExportChoices& choices, const Published& now) {
     choices.simulated = std::max<std::uint64_t>(now.last_recorded, 60);
 }
 
-ExportAnswer show_export_dialog(Ui& ui, ExportChoices& choices, const Published& now) {
+ExportAnswer show_export_dialog(Ui& ui, ExportChoices& choices, const Published& now,
+                                std::span<const Overlay* const> overlays) {
     const Theme& theme = ui.theme();
     Dialog dialog(ui, "export", "Export", ImVec2(theme.px(560), 0));
     choose_run(ui, choices, now);
@@ -114,6 +133,7 @@ ExportAnswer show_export_dialog(Ui& ui, ExportChoices& choices, const Published&
                          rate, {.min = 1, .max = most, .usual = most});
             choices.frames_per_second = rate < most ? rate : 0;
         }
+        choose_overlays(ui, choices, overlays);
         muted_text(ui, "Shows the scene as the view does now.");
     }
     if (button(ui, "choose", {.icon = Icon::export_file, .text = "Choose a file …", .primary = true}))
@@ -124,7 +144,7 @@ ExportAnswer show_export_dialog(Ui& ui, ExportChoices& choices, const Published&
 // --- The editor
 
 void Editor::export_dialog(Ui& ui) {
-    const ExportAnswer answer = show_export_dialog(ui, export_choices_, session_->now());
+    const ExportAnswer answer = show_export_dialog(ui, export_choices_, session_->now(), overlays_);
     if (answer == ExportAnswer::none) return;
     panel_ = Panel::none;
     if (answer == ExportAnswer::cancel) return;
@@ -146,10 +166,12 @@ void Editor::export_dialog(Ui& ui) {
 
 Result<void> Editor::start_export(const std::filesystem::path& file) {
     const ExportChoices& choices = export_choices_;
-    const ImageOptions images{.width = choices.size[0],
-                              .height = choices.size[1],
-                              .frames_per_second = choices.frames_per_second,
-                              .camera = view_.camera};
+    const ImageOptions images{
+        .width = choices.size[0],
+        .height = choices.size[1],
+        .frames_per_second = choices.frames_per_second,
+        .camera = view_.camera,
+        .overlays = choices.overlays ? exported_overlays(overlays_, choices.recorded) : std::vector<std::string>()};
     if (choices.recorded) {
         export_ = std::make_unique<RecordedExport>(
             simulator_, RecordedExportOptions{.file = file,

@@ -48,6 +48,9 @@ void add_image_arguments(const ImageOptions& images, std::vector<std::string>& a
     if (images.frames_per_second > 0)
         arguments.insert(arguments.end(), {"--fps", std::to_string(images.frames_per_second)});
     if (images.camera) arguments.insert(arguments.end(), {"--camera=" + text_of(*images.camera)});
+    std::string overlays;
+    for (const std::string& overlay : images.overlays) overlays += (overlays.empty() ? "" : ",") + overlay;
+    if (!overlays.empty()) arguments.insert(arguments.end(), {"--overlay", overlays});
 }
 
 /// For a program that has to remove files that are not complete.

@@ -42,6 +42,7 @@ struct ImageOptions {
     std::uint32_t width = 1280, height = 720;  ///< pixels
     double frames_per_second = 0;              ///< of a video; 0: those of the scene
     std::optional<Camera> camera = {};
+    std::vector<std::string> overlays = {};  ///< names of view/overlays.h
 };
 
 struct SimulatedExportOptions {

@@ -145,7 +145,7 @@ class PropertyRow {
     }
     void angle_or_mesh(const NumberRange& range) {
         bool of_mesh = value_.is_string();
-        const std::string name = std::string(p_.key) + "_of_mesh", label = label_ + " as built";
+        const std::string name = std::string(p_.key) + "_of_mesh", label = "Angle as built";
         const Field own{.name = name, .label = label, .what = what_};
         if (const Change change = flag(ui_, own, of_mesh); change != Change::none)
             return store(change, of_mesh ? Json("mesh") : Json(180));

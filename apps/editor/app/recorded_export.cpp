@@ -145,11 +145,12 @@ Result<void> RecordedExport::Impl::write_images() {
         return begun;
     auto device = make_vulkan_device({.software = true});
     if (!device) return device.errors();
-    auto view = SceneView::create(*device, world->scene(), LiveWorldFrame(world->world()),
-                                  {.width = images.width, .height = images.height, .samples = 4, .overlays = {}},
-                                  {.surface = {},
-                                   .read_picture = pictures_beside(world->folder()),
-                                   .read_light = lights_beside(world->folder())});
+    auto view =
+        SceneView::create(*device, world->scene(), LiveWorldFrame(world->world()),
+                          {.width = images.width, .height = images.height, .samples = 4, .overlays = images.overlays},
+                          {.surface = {},
+                           .read_picture = pictures_beside(world->folder()),
+                           .read_light = lights_beside(world->folder())});
     if (!view) return view.errors();
     view->set_hidden(options.hidden);
     for (std::uint64_t i = 0; i < count; ++i) {

@@ -118,6 +118,23 @@ TEST_F(RecordedExportTest, draws_the_last_frame) {
     EXPECT_EQ(image->height, 48u);
 }
 
+TEST_F(RecordedExportTest, draws_overlays) {
+    work();
+    const Camera camera{.position = {0, 1, 3}, .target = {0, 0.5f, 0}};
+    std::vector<std::vector<std::uint8_t>> images;
+    for (const std::vector<std::string>& overlays : {std::vector<std::string>{}, {"wireframe"}}) {
+        const auto file = folder / ("with" + std::to_string(images.size()) + ".png");
+        EXPECT_EQ(write({.file = file,
+                         .frames = {0, 10},
+                         .images = {.width = 64, .height = 48, .camera = camera, .overlays = overlays}}),
+                  "");
+        const auto image = read_image(file);
+        ASSERT_TRUE(image) << image.error().message();
+        images.push_back(image->rgba);
+    }
+    EXPECT_NE(images[0], images[1]);
+}
+
 TEST_F(RecordedExportTest, tells_what_is_missing_and_leaves_nothing_behind) {
     advance(3);
     EXPECT_THAT(write({.file = folder / "run.glb", .frames = {0, 9}}), HasSubstr("frame 4: is not recorded"));
