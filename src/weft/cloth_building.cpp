@@ -73,6 +73,8 @@ ClothCollision collision_of(const SceneCloth& cloth) {
     return {cloth.self_collision, {1u << cloth.collision_group, cloth.collision_mask}, cloth.layer};
 }
 
+}  // namespace
+
 ClothReserve reserve_of(const SceneCloth& cloth, std::uint32_t particles) {
     if (cloth.tearing == Tearing::off) return {};
     const bool erodes = cloth.tearing == Tearing::erode;
@@ -82,8 +84,6 @@ ClothReserve reserve_of(const SceneCloth& cloth, std::uint32_t particles) {
             .tears = erodes || cloth.tearing == Tearing::split,
             .erodes = erodes};
 }
-
-}  // namespace
 
 Fabric fabric_of(const SceneCloth& cloth) {
     Fabric fabric = cloth.fabric;
@@ -173,9 +173,11 @@ Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, 
     return built;
 }
 
-Result<std::shared_ptr<const ClothModel>> rebuild_cloth(const ClothModel& now, const ClothSource& source,
-                                                        const SceneCloth& cloth, const ClothPins& pins,
-                                                        const ClothLayout& layout) {
+namespace {
+
+Result<std::shared_ptr<const ClothModel>> rebuild(const ClothModel& now, const ClothSource& source,
+                                                  const SceneCloth& cloth, const ClothPins& pins,
+                                                  const ClothLayout& layout, std::optional<ClothReserve> reserve) {
     const TriangleMesh& mesh = simulated_mesh(now, source);
     auto topology = build_topology(mesh, source.topology);
     if (!topology) return topology.errors();
@@ -189,7 +191,34 @@ Result<std::shared_ptr<const ClothModel>> rebuild_cloth(const ClothModel& now, c
                                .weights = std::move(*weights),
                                .pins = pins,
                                .layout = layout,
-                               .collision = collision_of(cloth)});
+                               .collision = collision_of(cloth),
+                               .reserve = reserve});
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const ClothModel>> rebuild_cloth(const ClothModel& now, const ClothSource& source,
+                                                        const SceneCloth& cloth, const ClothPins& pins,
+                                                        const ClothLayout& layout) {
+    return rebuild(now, source, cloth, pins, layout, {});
+}
+
+bool gets_room_while_it_moves(const SceneCloth& cloth, const ClothModel& model) {
+    return cloth.cuts.empty() && cloth.seams.empty() && model.copied_from.empty() && model.mesh_is_of_particles() &&
+           !model.parting;
+}
+
+Result<std::shared_ptr<const ClothModel>> rebuild_with_tearing(const ClothModel& now, ClothSource& source,
+                                                               const SceneCloth& cloth, const ClothLayout& layout) {
+    const ClothReserve reserve = reserve_of(cloth, now.particle_count);
+    auto model = rebuild(now, source, cloth, source.pins, layout, reserve);
+    if (!model) return model;
+    // The drawn mesh follows cuts, and no longer tells what the cloth was built from.
+    if (!source.simulated) source.simulated = std::make_shared<const TriangleMesh>(now.mesh());
+    ParticleNumbers numbers = *source.numbers;
+    numbers.first_anchor = (*model)->first_anchor();
+    source.numbers = std::make_shared<const ParticleNumbers>(std::move(numbers));
+    return model;
 }
 
 Result<std::uint32_t> find_triangle(std::uint32_t number, const ClothModel& model, const ClothSource& source) {

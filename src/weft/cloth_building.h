@@ -64,6 +64,18 @@ Result<std::shared_ptr<const ClothModel>> rebuild_cloth(const ClothModel& now, c
                                                         const SceneCloth& cloth, const ClothPins& pins,
                                                         const ClothLayout& layout);
 
+/// Room for what can part in `cloth`.
+ClothReserve reserve_of(const SceneCloth& cloth, std::uint32_t particles);
+
+/// Whether a cloth that has not been cut can get another tearing while it moves: rebuild_with_tearing(). `cloth`: as it
+/// is now.
+bool gets_room_while_it_moves(const SceneCloth& cloth, const ClothModel& model);
+
+/// Builds a model with the tearing of `cloth`, but without its resistance, for the particles of `now`, and gives
+/// `source` its numbers. `now`: of a cloth of which gets_room_while_it_moves() is true.
+Result<std::shared_ptr<const ClothModel>> rebuild_with_tearing(const ClothModel& now, ClothSource& source,
+                                                               const SceneCloth& cloth, const ClothLayout& layout);
+
 /// Selects the particles of `pins` at their current positions.
 Result<Pinned> select_pins_now(const World& world, ClothId id, const ClothSource& source,
                                const std::vector<PinDesc>& pins);

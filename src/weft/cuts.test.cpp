@@ -393,6 +393,47 @@ TEST(SceneResistance, changes_while_the_cloth_moves) {
     EXPECT_EQ(only_model(world).tear_law->inverse_resistance[7], 1);
 }
 
+// A cloth gets room for cuts and tears while it moves, and loses it again. It goes on as it would have.
+TEST(SceneTearing, changes_while_the_cloth_moves) {
+    SceneDesc scene = tearing_sheet({}, {});
+    scene.cloths[0].tearing = Tearing::off;
+    scene.cloths[0].pins = {{.select = VertexPins{{0}}}, {.select = VertexPins{{10}}, .compliance = 0.01f}};
+    SceneWorld world = open_cut_world(scene), unchanged = open_cut_world(scene);
+    step(world, 10), step(unchanged, 10);
+    const auto places = [](const SceneWorld& of) {
+        std::vector<Vec3> all;
+        for (const Vec4& x : of.world().frame().cloths[0].positions) all.push_back(x.xyz());
+        return all;
+    };
+    const auto at_10 = world.checkpoint();
+    const std::string hash = world.world().state_hash();
+    SceneDesc next = world.scene();
+    next.cloths[0].tearing = Tearing::split;
+    next.cloths[0].resistance = {{.factor = 2, .select = VertexPins{{7}}}};
+    ASSERT_TRUE(world.change_to(next));
+    EXPECT_EQ(world.scene(), next);
+    EXPECT_EQ(world.world().state_hash(), hash);
+    EXPECT_EQ(only_model(world).tear_law->inverse_resistance[7], 0.5f);
+    step(world, 5), step(unchanged, 5);
+    EXPECT_EQ(places(world), places(unchanged)) << "nothing tears: positions equal those without tearing";
+    const ClothId id = world.world().cloth_id(0);
+    ASSERT_TRUE(world.cut(id, {.along = PlaneCut{{1, 0, 0}, 0.001f}}, CutPositions::start));
+    step(world, 5);
+    EXPECT_GT(copies_in(world), 0u);
+    // A cloth that is cut starts again.
+    const auto cut = world.checkpoint();
+    next.cloths[0].tearing = Tearing::off, next.cloths[0].resistance.clear();
+    ASSERT_TRUE(world.change_to(next));
+    EXPECT_EQ(copies_in(world), 0u);
+    // Earlier states come back, with and without room.
+    ASSERT_TRUE(world.go_to(cut));
+    EXPECT_GT(copies_in(world), 0u);
+    ASSERT_TRUE(world.go_to(at_10));
+    EXPECT_EQ(world.world().state_hash(), hash);
+    step(world, 5);
+    EXPECT_EQ(places(world), places(unchanged));
+}
+
 // Other names of groups leave the cloth alone.
 TEST(SceneGroups, can_change_while_the_cloth_moves) {
     SceneDesc scene = tearing_sheet({}, {});

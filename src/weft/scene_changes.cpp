@@ -12,8 +12,10 @@ namespace {
 /// Whether the first can be changed to the second while it moves.
 bool same_particles(const SceneCloth& a, const SceneCloth& b) {
     return a.mesh == b.mesh && a.render_mesh == b.render_mesh && a.transform == b.transform &&
-           a.velocity == b.velocity && a.tearing == b.tearing && a.tear_room == b.tear_room && a.cuts == b.cuts &&
-           a.seams == b.seams;
+           a.velocity == b.velocity && a.cuts == b.cuts && a.seams == b.seams;
+}
+bool same_tearing(const SceneCloth& a, const SceneCloth& b) {
+    return a.tearing == b.tearing && a.tear_room == b.tear_room;
 }
 bool collides_alike(const SceneCloth& a, const SceneCloth& b) {
     return a.self_collision == b.self_collision && a.collision_group == b.collision_group &&
@@ -109,8 +111,9 @@ void SceneWorld::remove_what_is_not_in(const SceneDesc& next) {
     }
     for (std::size_t i = scene_.cloths.size(); i-- > 0;) {
         const SceneCloth* there = find_named(next.cloths, scene_.cloths[i].name);
-        if (other_layout || !stays(scene_.cloths[i], there, there && same_particles(scene_.cloths[i], *there)))
-            remove(world_->cloth_id(i));
+        const bool can_stay = there && same_particles(scene_.cloths[i], *there) &&
+                              (same_tearing(scene_.cloths[i], *there) || can_change_tearing(i, *there));
+        if (other_layout || !stays(scene_.cloths[i], there, can_stay)) remove(world_->cloth_id(i));
     }
 }
 
@@ -153,6 +156,9 @@ Result<void> SceneWorld::change_cloths(const SceneDesc& next) {
         const auto place = static_cast<std::size_t>(there - scene_.cloths.data());
         scene_.cloths[place].material = wanted.material;
         scene_.cloths[place].groups = wanted.groups;
+        if (!same_tearing(*there, wanted)) {
+            if (auto set = change_tearing(place, wanted); !set) return placed_at(at("/cloths", i), set.errors());
+        }
         if (there->resistance != wanted.resistance) {
             if (auto set = change_resistance(place, wanted, at("/cloths", i)); !set) return set;
         }

@@ -305,6 +305,35 @@ Result<void> SceneWorld::change_resistance(std::size_t place, const SceneCloth& 
     return {};
 }
 
+// The room for copies is part of the model. A cloth that has been cut would lose its cuts.
+bool SceneWorld::can_change_tearing(std::size_t place, const SceneCloth& wanted) const {
+    const ClothId id = world_->cloth_id(place);
+    const auto& model = world_->model(id);
+    return wanted.cuts.empty() && wanted.seams.empty() && world_->unedited_model(id) == model &&
+           gets_room_while_it_moves(scene_.cloths[place], *model);
+}
+
+Result<void> SceneWorld::change_tearing(std::size_t place, const SceneCloth& wanted) {
+    const ClothId id = world_->cloth_id(place);
+    SceneCloth cloth = without_meshes(scene_.cloths[place]);
+    cloth.tearing = wanted.tearing, cloth.tear_room = wanted.tear_room;
+    cloth.resistance.clear();  // change_resistance() follows
+    ClothSource source = sources_[place];
+    const std::uint32_t anchors_before = world_->model(id)->first_anchor();
+    auto model = rebuild_with_tearing(*world_->model(id), source, cloth, world_->settings().layout());
+    if (!model) return model.errors();
+    KinematicTargets targets = world_->kinematic_targets(id);
+    for (KinematicTarget& target : targets.particles)
+        if (target.particle >= anchors_before) target.particle += (*model)->first_anchor() - anchors_before;
+    if (auto set = world_->set_model_with_room(id, std::move(*model), std::move(targets)); !set) return set;
+    source.serial = next_serial();  // to go back, the cloth of then is needed
+    sources_[place] = std::move(source);
+    SceneCloth& document = scene_.cloths[place];
+    document.tearing = cloth.tearing, document.tear_room = cloth.tear_room;
+    document.resistance.clear();
+    return {};
+}
+
 Result<void> SceneWorld::set_pins(ClothId id, std::vector<PinDesc> pins) {
     const std::size_t place = place_of(id);
     auto pinned = select_pins_now(*world_, id, sources_[place], pins);

@@ -134,6 +134,9 @@ class SceneWorld {
     /// Returns false and changes nothing if the fabric needs a rebuilt model.
     Result<bool> change_material(std::size_t place, const SceneCloth& cloth);
     Result<void> change_resistance(std::size_t place, const SceneCloth& cloth, const std::string& pointer);
+    /// Whether change_tearing() can make the cloth one that parts like `wanted`, without starting it again.
+    bool can_change_tearing(std::size_t place, const SceneCloth& wanted) const;
+    Result<void> change_tearing(std::size_t place, const SceneCloth& wanted);
     void rebuild_later(std::size_t place);
     Result<bool> target_at_once(std::size_t place, const Pinned& pinned);
     Result<void> change_stitches(const SceneDesc& next);

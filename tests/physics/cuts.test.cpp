@@ -201,7 +201,45 @@ TEST(Cuts, leave_rims_that_do_not_pass_through_each_other) {
     EXPECT_EQ(tangled, 0u);
 }
 
+/// State hash of a curtain that gets room for cuts while it hangs, and is cut.
+std::string cut_after_room(World world) {
+    const ClothLayout layout{.lines = true, .hierarchy = true};
+    TriangleMesh mesh = make_grid({1, 1}, {17, 17}, GridDiagonal::alternating);
+    const auto model = make_upright({.name = "curtain", .layout = layout}, mesh, [](Vec3 x) { return x.z < -0.499f; });
+    const ClothId id = world.add(model);
+    run(world, 0.1);
+    const std::string before = world.state_hash();
+    const TriangleMesh& upright = model->mesh();
+    const auto roomy = change_cloth_model(*model, upright, *build_topology(upright, {.reorder = false}),
+                                          {.fabric = model->fabric,
+                                           .pins = {.particles = pinned_of(*model)},
+                                           .layout = layout,
+                                           .reserve = ClothReserve{.particles = 100, .openings = true}});
+    EXPECT_TRUE(roomy.ok() && world.set_model_with_room(id, *roomy, {}));
+    EXPECT_EQ(world.state_hash(), before);
+    run(world, 0.1);
+    EXPECT_TRUE(world.edit(id, {.openings = down_the_middle(world, id)}).ok());
+    run(world, 0.1);
+    EXPECT_EQ(world.model(id)->copied_from.size(), 17u);
+    return world.state_hash();
+}
+
+TEST(Cuts, open_a_cloth_that_got_room_while_it_moved) {
+    EXPECT_EQ(cut_after_room(make_world(pulled(true))), cut_after_room(make_world(pulled(true))));
+}
+
 #ifdef WEFT_VULKAN
+// Labels: no-asan
+TEST(Cuts, of_a_cloth_that_got_room_are_the_same_on_both_backends) {
+    World device(checked_vulkan_backend({}), pulled(true));
+    const bool exact = rounds_like_the_cpu(device);
+    const std::string on_device = cut_after_room(std::move(device)),
+                      on_cpu = cut_after_room(make_world(pulled(true), CpuOptions{}));
+    if (exact) {
+        EXPECT_EQ(on_device, on_cpu);
+    }
+}
+
 // Labels: no-asan
 TEST(Cuts, are_the_same_on_both_backends) {
     for (const bool lines : {true, false}) {

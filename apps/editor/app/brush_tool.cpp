@@ -2,6 +2,7 @@
 
 #include "editor/app/vertex_selector.h"
 #include "editor/ui/expression.h"
+#include "weft/cloth_building.h"
 
 #include <algorithm>
 #include <cmath>
@@ -147,8 +148,10 @@ void BrushTool::end(const ToolInput& in) {
     edits.insert(edits.end(), painted.begin(), painted.end());
     std::string what(kind().label);
     if (kind().name == "group") what += " " + options.group;
+    const bool goes_on = gets_room_while_it_moves(described(target), *target.frame.model);
     in.session.change("Paint " + what + " of " + target_->name, std::move(edits));
-    if (!prepared.empty()) in.session.say(target_->name + " can tear now. It starts again.");
+    if (!prepared.empty())
+        in.session.say(target_->name + (goes_on ? " can tear now." : " can tear now. It starts again."));
 }
 
 void BrushTool::cancel() {

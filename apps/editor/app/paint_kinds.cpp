@@ -9,11 +9,12 @@
 #include <map>
 
 namespace weft::editor {
-namespace {
 
 const SceneCloth& described(const PaintTarget& target) {
     return target.document.scene.cloths.at(std::stoul(target.place.substr(target.place.rfind('/') + 1)));
 }
+
+namespace {
 
 std::vector<float> membership(const PaintTarget& target, const VertexSet& vertices) {
     std::vector<float> values(target.cloth.particles());

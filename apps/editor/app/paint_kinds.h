@@ -21,6 +21,9 @@ struct PaintTarget {
     std::string group;  ///< for the kind `group`: its name, which need not exist
 };
 
+/// The cloth in the document.
+const SceneCloth& described(const PaintTarget& target);
+
 struct PaintKind {
     std::string_view name, label, what;
     bool on_off = false;         ///< a vertex has it or not: no strength and no fall-off

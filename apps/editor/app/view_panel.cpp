@@ -4,6 +4,7 @@
 #include "editor/tools/stroke_cut.h"
 #include "solver/world/collider_mesh.h"
 #include "view/framing.h"
+#include "weft/cloth_building.h"
 
 #include <algorithm>
 #include <cmath>
@@ -328,13 +329,15 @@ void ViewPanel::cut(Session& session, const ViewMarks& marks, const Input& input
         const std::string place = place_of_named(*session.document(), "/cloths", name);
         if (place.empty()) continue;
         // On the cloth as it starts. A line from fold to fold leaves the cloth as it is now, and a cloth that cannot be
-        // cut yet starts again.
+        // cut yet may start again.
         const CutCloth cloth{mesh, tree, &distance, picture.world->model(i)->start};
         const auto cuts = cuts_of_stroke(input.view, stroke_, cloth, {others, scene.colliders, {}});
         if (cuts.empty()) continue;
-        if (session.document()->scene.cloths[std::stoul(place.substr(8))].tearing == Tearing::off) {
+        const SceneCloth& described = session.document()->scene.cloths[std::stoul(place.substr(8))];
+        if (described.tearing == Tearing::off) {
+            const bool goes_on = gets_room_while_it_moves(described, *picture.world->model(i));
             session.change("Let " + name + " be cut", {{place + "/tearing", "cuts"}});
-            session.say(name + " starts again: its tearing was off.");
+            if (!goes_on) session.say(name + " starts again: its tearing was off.");
         }
         for (const PathCut& path : cuts) session.post(Cut{name, path.points, true});
         parts += static_cast<int>(cuts.size());

@@ -309,7 +309,8 @@ Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc,
                             .weights = std::move(desc.weights),
                             .pins = std::move(desc.pins),
                             .layout = desc.layout,
-                            .collision = desc.collision};
+                            .collision = desc.collision,
+                            .reserve = {}};
     if (auto done = lay_out(*model, desc.mesh, topology, parts, desc.coloring, desc.reserve); !done)
         return done.errors();
     BuildClock clock(model->build_times);
@@ -365,7 +366,8 @@ Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& f
     model->name = from.name;
     model->start_velocity = from.start_velocity;
     model->binding = from.binding;
-    model->tear_paint = from.tear_paint;
+    assert(!change.reserve || (from.mesh_is_of_particles() && !from.parting));
+    if (!change.reserve) model->tear_paint = from.tear_paint;
     model->parting = from.parting;
     if (from.binding.empty() && is_simulated_as_drawn(mesh, topology)) {
         model->set_mesh_of_particles(mesh.uvs, mesh.colors);
@@ -376,7 +378,8 @@ Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& f
     if (!from.copied_from.empty() && !from.parting)  // without its copies
         model->vertex_to_particle = std::vector<std::uint32_t>(
             from.vertex_to_particle.begin(), from.vertex_to_particle.begin() + std::ptrdiff_t(mesh.positions.size()));
-    if (auto done = lay_out(*model, mesh, topology, change, {}, from.reserved); !done) return done.errors();
+    if (auto done = lay_out(*model, mesh, topology, change, {}, change.reserve.value_or(from.reserved)); !done)
+        return done.errors();
     if (model->parting) model->reset_mesh();
     return std::shared_ptr<const ClothModel>(std::move(model));
 }

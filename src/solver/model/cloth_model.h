@@ -254,6 +254,8 @@ struct ClothChange {
     ClothPins pins = {};
     ClothLayout layout = {};
     ClothCollision collision = {};
+    /// Another one than the model has. It then has no tear paint. Only if its drawn mesh is that of its particles.
+    std::optional<ClothReserve> reserve = {};
 };
 
 /// Builds a model of the same mesh. `mesh` and `topology` are those that `from` was built from.

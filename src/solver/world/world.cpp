@@ -120,6 +120,57 @@ Result<void> World::set_model(ClothId id, std::shared_ptr<const ClothModel> mode
     return {};
 }
 
+namespace {
+
+// The snapshot of a cloth, for a model of the same particles with another reserve.
+ClothSnapshot with_other_room(const ClothSnapshot& before, const ClothModel& from, const ClothModel& to) {
+    ClothSnapshot after;
+    after.kept = kept_after(from, before.kept, to), after.substep_seconds = before.substep_seconds;
+    const bool same_anchors = from.anchor_count == to.anchor_count;
+    const auto moved = [&](const std::vector<Vec4>& points, bool places) {
+        std::vector<Vec4> all(to.point_count());
+        if (places) std::copy_n(to.start.begin(), all.size(), all.begin());
+        std::copy_n(points.begin(), to.particle_count, all.begin());
+        if (same_anchors)
+            std::copy_n(points.begin() + from.first_anchor(), to.anchor_count, all.begin() + to.first_anchor());
+        return all;
+    };
+    after.position = moved(before.position, true), after.start = moved(before.start, true);
+    after.velocity = moved(before.velocity, false), after.compensation = moved(before.compensation, false);
+    for (std::uint32_t p = 0; p < to.point_count(); ++p) after.position[p].w = to.start[p].w;
+    return after;
+}
+
+}  // namespace
+
+Result<void> World::set_model_with_room(ClothId id, std::shared_ptr<const ClothModel> model, KinematicTargets targets) {
+    assert(contains(id));
+    complete_and_resolve();
+    pending_.drop(id);
+    Cloth& cloth = cloths_[cloths_.find(id)];
+    assert(cloth.edits.empty() && model->particle_count == cloth.model->particle_count);
+    const std::uint32_t base = space_.take(model->capacity());
+    const auto handle = backend_->add_cloth(model, base);
+    Result<void> set =
+        handle ? backend_->restore(*handle, with_other_room(backend_->save(cloth.handle), *cloth.model, *model))
+               : Result<void>(handle.errors());
+    if (!set) {
+        if (handle) backend_->remove_cloth(*handle);
+        space_.give_back(base, model->capacity());
+        return set;
+    }
+    backend_->remove_cloth(cloth.handle);
+    space_.give_back(cloth.base, cloth.model->capacity());
+    cloth.handle = *handle;
+    cloth.base = base;
+    cloth.pinned = pinned_in(*model);
+    cloth.model = std::move(model);
+    cloth.targets = std::move(targets);
+    list_cloths();
+    replan();
+    return {};
+}
+
 Result<void> World::set_material(ClothId id, std::shared_ptr<const ClothModel> model) {
     assert(contains(id));
     complete_and_resolve();

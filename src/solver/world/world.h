@@ -39,6 +39,8 @@ class World {
     /// have edits.
     Result<void> set_model(ClothId id, std::shared_ptr<const ClothModel> model, KinematicTargets targets,
                            std::optional<std::vector<std::uint32_t>> pinned = {});
+    /// The same with another reserve (ClothReserve). The cloth must not have been edited.
+    Result<void> set_model_with_room(ClothId id, std::shared_ptr<const ClothModel> model, KinematicTargets targets);
     /// Sets a model made by with_fabric() or with_tear_paint(): the same constraints with other parameters. Pins are
     /// kept. Drops a model that rebuild_later() has pending.
     Result<void> set_material(ClothId id, std::shared_ptr<const ClothModel> model);
