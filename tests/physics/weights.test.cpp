@@ -117,6 +117,16 @@ TEST(Weights, stay_when_the_fabric_changes) {
     EXPECT_FALSE(*changed);
 }
 
+// A stiff part leaves the springs of the rest, however stiff it is.
+TEST(Weights, of_a_part_leave_the_constraints_of_the_rest) {
+    for (const StretchModel model : {StretchModel::edges, StretchModel::membrane}) {
+        SheetDesc sheet = waving_sheet(model, BendModel::moment);
+        const std::uint32_t rows = make_sheet(sheet)->table(ConstraintKind::stretch).rows;
+        sheet.stretch = [](Vec3 p) { return p.x < 0 ? 1e6f : 1.0f; };
+        EXPECT_EQ(make_sheet(sheet)->table(ConstraintKind::stretch).rows, rows);
+    }
+}
+
 // A strip that hangs by its upper edge, whose lower half has other weights.
 SheetDesc two_halves(StretchModel model) {
     SheetDesc sheet = hanging_strip({9, 33}, 400, 20);

@@ -33,29 +33,36 @@ StretchLaw::Compliances compliances_of(double stretched, double compressed, doub
     return {of(stretched), of(compressed)};
 }
 
+// Stiffness up to this part of the largest one, in a triangle of the same weight, is rounding error.
+constexpr double least_spring_part = 1e-6;
+
 // Of every edge, its springs in the triangles at it.
 std::vector<StretchLaw::Compliances> edges_of_membrane(const RestShape& rest, const StretchMaterial& material) {
     struct Sum {
-        double stretched = 0, compressed = 0;
+        double stretched = 0, compressed = 0, weight = 0;  // weight: the larger one of its triangles
     };
     const Topology& topology = rest.topology;
     std::vector<Sum> sums(topology.edges.size());
     for (std::uint32_t t = 0; t < topology.triangles.size(); ++t) {
         const MembraneSplit split = split_membrane(rest, t, material);
+        const double weight = weight_at(rest.stretch_weight, t);
         const Triangle& corners = topology.triangles[t];
         for (std::size_t i = 0; i < 3; ++i) {
             const auto [a, b] = std::minmax(corners[(i + 1) % 3], corners[(i + 2) % 3]);
             for (const std::uint32_t e : topology.particle_edges[a]) {
                 if (topology.edges[e].a != a || topology.edges[e].b != b) continue;
                 sums[e].stretched += split.stretched[i], sums[e].compressed += split.compressed[i];
+                sums[e].weight = std::max(sums[e].weight, weight);
             }
         }
     }
     double most = 0;
-    for (const Sum& sum : sums) most = std::max({most, sum.stretched, sum.compressed});
+    for (const Sum& sum : sums)
+        if (sum.weight > 0) most = std::max({most, sum.stretched / sum.weight, sum.compressed / sum.weight});
     std::vector<StretchLaw::Compliances> compliances;
     compliances.reserve(sums.size());
-    for (const Sum& sum : sums) compliances.push_back(compliances_of(sum.stretched, sum.compressed, 1e-6 * most));
+    for (const Sum& sum : sums)
+        compliances.push_back(compliances_of(sum.stretched, sum.compressed, least_spring_part * most * sum.weight));
     return compliances;
 }
 
@@ -68,12 +75,14 @@ std::vector<std::array<StretchLaw::Compliances, 3>> springs_of_membrane(const Re
     for (std::uint32_t t = 0; t < rest.topology.triangles.size(); ++t) {
         splits.push_back(split_membrane(rest, t, material));
         for (const auto& of : {splits.back().stretched, splits.back().compressed})
-            most = std::max(most, std::ranges::max(of));
+            most = std::max(most, std::ranges::max(of) / weight_at(rest.stretch_weight, t));
     }
     std::vector<std::array<StretchLaw::Compliances, 3>> springs(splits.size());
     for (std::size_t t = 0; t < splits.size(); ++t)
         for (std::size_t i = 0; i < 3; ++i)
-            springs[t][i] = compliances_of(splits[t].stretched[i], splits[t].compressed[i], 1e-6 * most);
+            springs[t][i] = compliances_of(
+                splits[t].stretched[i], splits[t].compressed[i],
+                least_spring_part * most * weight_at(rest.stretch_weight, static_cast<std::uint32_t>(t)));
     return springs;
 }
 
