@@ -108,7 +108,8 @@ TEST(CaughtCloth, between_a_pin_and_a_ball_comes_free) {
         const Vec3 in{0, -overlap - 0.002f, 0};
         KinematicTargets targets{.motions = {{.offsets = {{0, {}}, {0.25f, in}, {0.75f, in}, {1, {0, 0.1f, 0}}}}},
                                  .particles = {}};
-        for (const std::uint32_t p : pinned_of(*model)) targets.particles.push_back({p, 0, model->rest_position(p)});
+        for (const std::uint32_t p : pinned_particles(*model))
+            targets.particles.push_back({p, 0, model->rest_position(p)});
         world.add(model, targets);
         expect_caught_and_freed(world, double{overlap});
     }

@@ -212,7 +212,7 @@ std::string cut_after_room(World world) {
     const TriangleMesh& upright = model->mesh();
     const auto roomy = change_cloth_model(*model, upright, *build_topology(upright, {.reorder = false}),
                                           {.fabric = model->fabric,
-                                           .pins = {.particles = pinned_of(*model)},
+                                           .pins = {.particles = pinned_particles(*model)},
                                            .layout = layout,
                                            .reserve = ClothReserve{.particles = 100, .openings = true}});
     EXPECT_TRUE(roomy.ok() && world.set_model_with_room(id, *roomy, {}));

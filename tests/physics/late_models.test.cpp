@@ -19,7 +19,7 @@ std::string hash_with_rebuild(bool background, std::atomic<int>& builds, std::ui
     with_pin.pinned = [](Vec3 p) { return p.z < -0.49f && (std::abs(p.x) > 0.49f || std::abs(p.x) < 0.01f); };
     const auto next = make_sheet(with_pin);
     const ClothModel* before = world.model(id).get();
-    EXPECT_TRUE(world.set_pins(id, pinned_of(*next), {}).ok());
+    EXPECT_TRUE(world.set_pins(id, pinned_particles(*next), {}).ok());
     world.rebuild_later(id, [&builds, next] {
         ++builds;
         return Result<std::shared_ptr<const ClothModel>>(next);

@@ -11,7 +11,7 @@ TEST(LivePins, hold_a_particle_where_it_is) {
     World world = make_world({}, hung_upright());
     const ClothId id = world.frame().cloths[0].id;
     run(world, 0.5);
-    auto pins = pinned_of(*world.model(id));
+    auto pins = pinned_particles(*world.model(id));
     constexpr std::uint32_t lowest = 8 + 16 * 17;
     pins.push_back(lowest);
     const Vec3 before = world.frame().cloths[0].positions[lowest].xyz();
@@ -26,7 +26,8 @@ TEST(LivePins, let_go_with_the_weight_that_the_particle_had) {
     const ClothId id = world.frame().cloths[0].id;
     ASSERT_TRUE(world.set_pins(id, {}, {}).ok());
     const ClothModel& model = *world.model(id);
-    for (const std::uint32_t p : pinned_of(model)) EXPECT_EQ(world.frame().cloths[0].positions[p].w, 1 / model.mass[p]);
+    for (const std::uint32_t p : pinned_particles(model))
+        EXPECT_EQ(world.frame().cloths[0].positions[p].w, 1 / model.mass[p]);
     run(world, 0.5);
     EXPECT_NEAR(center_of_mass(world.frame().cloths[0]).y, -0.5 * 9.81 * 0.25, 0.05);
 }

@@ -111,13 +111,6 @@ inline SheetDesc hung_upright(const ClothLayout& layout = {}) {
             }};
 }
 
-inline std::vector<std::uint32_t> pinned_of(const ClothModel& model) {
-    std::vector<std::uint32_t> pins;
-    for (std::uint32_t p = 0; p < model.particle_count; ++p)
-        if (!(model.start[p].w > 0)) pins.push_back(p);
-    return pins;
-}
-
 /// An elastic sheet, 1 m long, that hangs by its upper edge at y = 0. `stiffness` and `shear` in N/m.
 inline SheetDesc hanging_strip(std::array<std::uint32_t, 2> resolution, float stiffness, float shear) {
     SheetDesc sheet{.size = {0.25f, 1},

@@ -506,6 +506,13 @@ std::vector<Vec4> start_velocities(const ClothModel& model) {
     return velocities;
 }
 
+std::vector<std::uint32_t> pinned_particles(const ClothModel& model) {
+    std::vector<std::uint32_t> pinned;
+    for (std::uint32_t p = 0; p < model.particle_count; ++p)
+        if (!(model.start[p].w > 0)) pinned.push_back(p);
+    return pinned;
+}
+
 float face_mass(const ClothModel& model, std::uint32_t triangle) {
     const float mass = model.fabric.body.density * model.face_area[triangle];
     return model.weights->density.empty() ? mass : mass * model.weights->density.at(triangle);

@@ -228,6 +228,9 @@ EdgesByDirection edges_by_direction(const ClothModel& model);
 /// capacity() elements; w is 0.
 std::vector<Vec4> start_velocities(const ClothModel& model);
 
+/// Particles that are rigidly pinned, ascending.
+std::vector<std::uint32_t> pinned_particles(const ClothModel& model);
+
 /// kg
 float face_mass(const ClothModel& model, std::uint32_t triangle);
 /// Mass of every triangle in kg; 0 for padding.
