@@ -270,9 +270,10 @@ struct ResistanceDesc {
     friend bool operator==(const ResistanceDesc&, const ResistanceDesc&) = default;
 };
 
-enum class WeightOf { density, stretch, bend };
-/// Particles whose cloth is heavier or lighter, stiffer or softer than the fabric. A triangle has the mean of its three
-/// corners. If several descriptions of the same value select a particle, the last one counts.
+enum class WeightOf { density, stretch, bend, thickness };
+/// Particles whose cloth is heavier or lighter, stiffer or softer, thicker or thinner than the fabric. A triangle has
+/// the mean of its three corners, or the thickness of the thinnest one. If several descriptions of the same value
+/// select a particle, the last one counts.
 struct WeightDesc {
     WeightOf of = WeightOf::density;  ///< stretch: with shear and compression
     float factor = 1;  ///< 0.001…1e6: on the value of the fabric. A product with a channel is at least 0.001

@@ -375,6 +375,8 @@ TileReach PairSearch::reach(const TileState& a, const TileState& b, TilePairs::B
         reach.widen[k] = reach.thickness + slack_both + std::fabs(reach.shift[k]);
     }
     if (a.cloth == b.cloth) reach.rest = of_a.rest;
+    reach.thickest = {of_a.thickness, of_b.thickness};
+    reach.uneven = {of_a.uneven, of_b.uneven};
     return reach;
 }
 

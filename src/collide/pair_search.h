@@ -9,6 +9,7 @@
 #include "base/workers.h"
 #include "collide/seams.h"
 #include "collide/tiles.h"
+#include "collide/uneven_thickness.h"
 
 #include <array>
 #include <cstdint>
@@ -38,12 +39,13 @@ struct SearchedCloth {
     std::shared_ptr<const std::vector<Tile>> tiles;
     std::uint32_t base = 0;                   ///< number of its first particle in the world
     const Vec4* rest = nullptr;               ///< m, by particle of the cloth
-    float thickness = 0;                      ///< m
+    float thickness = 0;                      ///< m, where it is thickest
     float slack = 0;                          ///< m: how far a particle may be from its listed trajectory at most
     bool surface = false;                     ///< of a collider: it forms pairs with cloths alone
     bool thin = false;                        ///< beside its edges, so that rounding tilts the normals of its pairs
     CollisionFilter filter = {};              ///< for other cloths
     std::shared_ptr<const Seams> seams = {};  ///< the same ones for all cloths; null if there are none
+    UnevenThickness uneven = {};
     friend bool operator==(const SearchedCloth&, const SearchedCloth&) = default;
 };
 
@@ -116,8 +118,11 @@ struct TilePairs {
 struct TileReach {
     std::array<float, 3> shift, widen;  ///< m: half of the relative motion, and how much farther boxes reach
     float add = 0;               ///< m: pairs whose distance is at most this more than their thickness are listed
-    float thickness = 0;         ///< m
+    float thickness = 0;         ///< m: of the thickest pair
     const Vec4* rest = nullptr;  ///< by particle of the cloth, if both tiles belong to one cloth
+    std::array<float, 2> thickest = {};          ///< m: SearchedCloth::thickness of both
+    std::array<UnevenThickness, 2> uneven = {};  ///< of both
+    bool is_uneven() const { return uneven[0] || uneven[1]; }
 };
 
 /// Working memory of SearchLoops::list_pairs.
@@ -134,8 +139,9 @@ struct SearchScratch {
     // within the thickness of their tiles, by particles.
     std::array<std::array<std::uint32_t, most_pairs + 32>, 4> vertex;
     std::array<AlignedVector<std::uint32_t>, 4> particle;  ///< in their cloths
-    AlignedVector<float> far;       ///< m: how much farther than their thickness the pairs to be listed may be apart
-    AlignedVector<float> distance;  ///< m
+    AlignedVector<float> far;        ///< m: how much farther than their thickness the pairs to be listed may be apart
+    AlignedVector<float> distance;   ///< m
+    AlignedVector<float> thickness;  ///< m, of the pairs
     std::uint32_t count = 0;
 };
 

@@ -252,13 +252,31 @@ WEFT_FN void keep_near_pairs(const TileState& a, const TileState& b, const TileR
     scratch.count = kept;
 }
 
-// Appends the pairs that were found and come within their own thickness.
+// The thickness of the pairs that were kept, the mean of both features. `first`: which tile of the reach side one is.
 template <PairKind kind>
-inline void append_pairs(const TileState& a, const TileState& b, const TileReach& reach, SearchScratch& scratch,
-                         PairList& list) {
+WEFT_FN void find_thickness(const TileReach& reach, std::size_t first, SearchScratch& scratch) {
+    scratch.thickness.resize(std::max(scratch.thickness.size(), scratch.far.size()));
+    if (!reach.is_uneven()) return void(std::fill_n(&scratch.thickness[0], scratch.count, reach.thickness));
+    const auto of_side = [&](std::size_t tile, int begin, int end, std::uint32_t i) {
+        float thickness = reach.thickest[tile];
+        if (!reach.uneven[tile]) return thickness;
+        for (int c = begin; c < end; ++c)
+            thickness = std::min(thickness, reach.uneven[tile].at(scratch.particle[static_cast<std::size_t>(c)][i]));
+        return thickness;
+    };
+    for (std::uint32_t i = 0; i < scratch.count; ++i)
+        scratch.thickness[i] =
+            0.5f * (of_side(first, 0, sides<kind>[0], i) + of_side(1 - first, sides<kind>[0], 4, i));
+}
+
+// Appends the pairs that were found and come within their own thickness. `first`: which tile of the reach `a` is.
+template <PairKind kind>
+inline void append_pairs(const TileState& a, const TileState& b, const TileReach& reach, std::size_t first,
+                         SearchScratch& scratch, PairList& list) {
     const std::uint32_t count = scratch.count;
     if (count == 0) return;
     list.reserve(list.count + count);
+    find_thickness<kind>(reach, first, scratch);
     const auto add = [&](std::uint32_t i, float thickness) {
         const std::uint32_t at = list.count++;
         for (int c = 0; c < 4; ++c)
@@ -266,7 +284,8 @@ inline void append_pairs(const TileState& a, const TileState& b, const TileReach
         list.thickness[at] = thickness, list.spare[at] = scratch.distance[i] - thickness;
     };
     if (!reach.rest) {
-        for (std::uint32_t i = 0; i < count; ++i) add(i, reach.thickness);
+        for (std::uint32_t i = 0; i < count; ++i)
+            if (scratch.distance[i] < scratch.far[i] + scratch.thickness[i]) add(i, scratch.thickness[i]);
         return;
     }
     // Neighbors on one cloth keep at most half of their distance at rest, or a thickness above the edge length would
@@ -277,7 +296,7 @@ inline void append_pairs(const TileState& a, const TileState& b, const TileReach
         real w;
         for (int c = 0; c < 4; ++c) x[c] = gather_blocks(&reach.rest->x, &scratch.particle[c][i], w);
         const real at_rest = closest<kind>(x).distance;
-        const real thickness = min(real(reach.thickness), at_rest * real(0.5f));
+        const real thickness = min(load(&scratch.thickness[i]), at_rest * real(0.5f));
         const mask listed = load(&scratch.distance[i]) < thickness + load(&scratch.far[i]) && at_rest > real(0.0f);
         alignas(64) float lanes[16];
         store(thickness, lanes);
@@ -293,7 +312,7 @@ inline void list_vertex_triangle(const TileState& a, const TileState& b, const T
     find_meeting_boxes(b, a.vertices, a.tile->own_vertices, b.triangles, b.tile->triangle_count, false, reach, sign, scratch);
     pack_pairs<kind>(a.vertices, {vertex_numbers.data()}, b.triangles, {corner[0].data(), corner[1].data(), corner[2].data()}, scratch);
     keep_near_pairs<kind>(a, b, reach, sign, scratch);
-    append_pairs<kind>(a, b, reach, scratch, list);
+    append_pairs<kind>(a, b, reach, sign > 0 ? 0 : 1, scratch, list);
 }
 
 inline void list_edge_edge(const TileState& a, const TileState& b, const TileReach& reach, SearchScratch& scratch,
@@ -303,7 +322,7 @@ inline void list_edge_edge(const TileState& a, const TileState& b, const TileRea
     find_meeting_boxes(b, a.edges, a.tile->edge_count, b.edges, b.tile->edge_count, &a == &b, reach, 1, scratch);
     pack_pairs<kind>(a.edges, {one[0].data(), one[1].data()}, b.edges, {two[0].data(), two[1].data()}, scratch);
     keep_near_pairs<kind>(a, b, reach, 1, scratch);
-    append_pairs<kind>(a, b, reach, scratch, list);
+    append_pairs<kind>(a, b, reach, 0, scratch, list);
 }
 
 inline void list_pairs_of_tiles(const TileState& a, const TileState& b, const TileReach& reach,

@@ -100,6 +100,7 @@ void ParticleSearch::set_cloths(const ParticleSearchLoops& loops, std::vector<Se
                 const std::uint32_t p = (*cloth.order)[begin + std::min(i, count - 1)];
                 const Vec4 x = cloth.rest[p];
                 listed.particle[i] = cloth.base + p;
+                listed.diameter[i] = cloth.uneven ? cloth.uneven.at(p) : cloth.diameter;
                 listed.rest[0][i] = x.x, listed.rest[1][i] = x.y, listed.rest[2][i] = x.z;
                 extend(listed.rest_box, {x.x, x.y, x.z, 0});
             }
@@ -298,7 +299,8 @@ ParticleSearch::Block ParticleSearch::list_block(std::uint32_t tile, std::uint32
                             .margin = margin + rounding,
                             .part_at_rest = of_a.part_at_rest,
                             .less_at_rest = of_a.less_at_rest,
-                            .by_rest = by_rest};
+                            .by_rest = by_rest,
+                            .uneven = of_a.uneven || of_b.uneven};
     block.spare = loops_->list(tiles, pairs) - rounding;
     if (of_a.seams) apply_seams(*of_a.seams, of_a.part_at_rest, pairs, block.begin);
     block.count = pairs.count - block.begin;

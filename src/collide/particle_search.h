@@ -8,6 +8,7 @@
 #include "base/aligned.h"
 #include "base/collision_filter.h"
 #include "collide/seams.h"
+#include "collide/uneven_thickness.h"
 
 #include <weft/bounds.h>
 #include <weft/vector.h>
@@ -28,13 +29,14 @@ struct SearchedParticles {
     std::shared_ptr<const std::vector<std::uint32_t>> order;  ///< of its particles; neighbors follow one another
     std::uint32_t base = 0;                                   ///< number of its first particle in the world
     const Vec4* rest = nullptr;                               ///< m, by particle of the cloth
-    float diameter = 0;                                       ///< m
+    float diameter = 0;                                       ///< m, of the largest particle
     float margin = 0;                                         ///< m: how much farther its listed pairs may be apart
     float part_at_rest = 0;       ///< two of its particles keep at most this part of their distance at rest,
     float less_at_rest = 0;       ///< or that distance less this, m, whichever is larger
     bool with_alike = true;       ///< false: it has no pairs with itself and with other cloths that have none
     CollisionFilter filter = {};  ///< for other cloths
     std::shared_ptr<const Seams> seams = {};  ///< the same ones for all cloths; null if there are none
+    UnevenThickness uneven = {};              ///< gives diameters
     friend bool operator==(const SearchedParticles&, const SearchedParticles&) = default;
 };
 
@@ -65,8 +67,9 @@ struct ParticlePairs {
 /// The particles of a tile where it was listed. Unused places are far away.
 struct ListedTile {
     using Axes = std::array<std::array<float, particle_tile>, 3>;
-    alignas(cache_line) Axes place, rest;                 ///< m
-    std::array<std::uint32_t, particle_tile> particle{};  ///< in the world
+    alignas(cache_line) Axes place, rest;                             ///< m
+    std::array<std::uint32_t, particle_tile> particle{};              ///< in the world
+    alignas(cache_line) std::array<float, particle_tile> diameter{};  ///< m
     ParticleBox box, rest_box;
 };
 
@@ -74,11 +77,12 @@ struct ListedTile {
 struct TilesToList {
     const ListedTile *one = nullptr, *two = nullptr;
     Vec3 shift;          ///< m: added to the listed places of tile two
-    float diameter = 0;  ///< m
+    float diameter = 0;  ///< m: of the largest pair
     float margin = 0;    ///< m
     float part_at_rest = 0;
     float less_at_rest = 0;  ///< m
     bool by_rest = false;    ///< the distance at rest may limit the diameter
+    bool uneven = false;     ///< particles have different diameters
 };
 
 /// The inner loops, one table per instruction set.

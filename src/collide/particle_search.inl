@@ -46,6 +46,10 @@ inline float list_near_pairs(const TilesToList& tiles, std::uint64_t near_one, s
             bits &= bits_of(distance2 < most * most);
             if (bits == 0) continue;
             real diameter(tiles.diameter), limit = most;
+            if (tiles.uneven) {
+                diameter = (real(one.diameter[i]) + load(&two.diameter[j])) * real(0.5f);
+                limit = diameter + margin;
+            }
             if constexpr (by_rest) {
                 const vec3 apart = one_place(one.rest, i) - load_place(two.rest, j);
                 diameter = diameter_of_pair(diameter, sqrt(dot(apart, apart)), real(tiles.part_at_rest),

@@ -67,9 +67,11 @@ void AdhesionList::run(const ListContext& context, const Pass& pass, std::uint32
 
 template <class Visit>
 void AdhesionList::for_each_target(const ListContext& context, const ClothState& cloth, std::uint32_t particle,
-                                   float half_thickness, Visit&& visit) {
+                                   const FrameNumbers& numbers, Visit&& visit) {
     const StepInput& input = context.step.input;
     const Vec4 x = cloth.now().position[particle];
+    const AlignedVector<float>& factors = cloth.thickness_factors;
+    const float half_thickness = factors.empty() ? numbers.half_thickness : numbers.half_thickness * factors[particle];
     for (std::uint32_t c = 0; c < input.colliders.size(); ++c) {
         const Collider& collider = input.colliders[c];
         if (!collider.adhesion || !shape_acts_on(collider, *cloth.model)) continue;
@@ -88,7 +90,7 @@ void AdhesionList::find(const ListContext& context, Worker worker) {
         const Share mine = particles_of(cloth, worker);
         for (std::uint32_t p = mine.begin; p < mine.end; ++p) {
             std::uint32_t count = 0;
-            for_each_target(context, cloth, p, numbers.half_thickness, [&](std::uint32_t, Vec3) { ++count; });
+            for_each_target(context, cloth, p, numbers, [&](std::uint32_t, Vec3) { ++count; });
             rows_.found()[first_item_[i] + p] = count;
         }
     }
@@ -103,7 +105,7 @@ void AdhesionList::list(const ListContext& context, Worker worker) {
             const std::uint32_t item = first_item_[i] + p, end = rows_.first_row(item + 1);
             std::uint32_t row = rows_.first_row(item);
             if (row == end) continue;
-            for_each_target(context, cloth, p, numbers.half_thickness, [&](std::uint32_t collider, Vec3 local) {
+            for_each_target(context, cloth, p, numbers, [&](std::uint32_t collider, Vec3 local) {
                 if (row == end) return;  // the list is full
                 rows_.put(row, cloth.base + p);
                 rows_.set(row, 3, context.step.input.colliders[collider].adhesion->compliance);

@@ -36,7 +36,7 @@ class AdhesionList {
     /// Calls visit(collider, local position) for every collider that the particle sticks to.
     template <class Visit>
     static void for_each_target(const ListContext& context, const ClothState& cloth, std::uint32_t particle,
-                                float half_thickness, Visit&& visit);
+                                const FrameNumbers& numbers, Visit&& visit);
     void find(const ListContext& context, Worker worker);
     void list(const ListContext& context, Worker worker);
     void aim(const ListContext& context, std::uint32_t substep, Worker worker);

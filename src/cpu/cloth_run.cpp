@@ -62,7 +62,8 @@ bool ClothRun::run(const IslandPass& island_pass, std::uint32_t substep, Worker 
         return false;
     }
     if (pass.kind == PassKind::tear) {
-        if (worker.number == 0) cloth_.tearing->run(passes_, model(), cloth_.now(), cloth_.weights(), substep);
+        if (worker.number == 0)
+            cloth_.tearing->run(passes_, model(), {cloth_.now(), cloth_.weights(), cloth_.thickness_factors}, substep);
         return false;
     }
     switch (pass_info(pass.kind).over) {

@@ -44,6 +44,7 @@ class ClothRun {
     bool supports(std::span<const NearCollider> near) const;
     void find_supports(const ColliderRun& run, std::span<const NearCollider> near, std::uint32_t substep) const;
     bool is_body(const NearCollider& near) const { return bodies_.body_of(near.collider) != none; }
+    ThicknessView thickness() const;
     /// Without what run_contacts() adds.
     ContactView contact_view(const NearCollider& near, std::uint32_t substep) const;
     /// In the substep.

@@ -86,8 +86,8 @@ void ClothRun::run_body_contacts(const Pass& pass, std::uint32_t substep, Range 
     if (counts || !pass.first_iteration) cloth_.face_contacts.clear_near({mine.begin, mine.end});
     place_balls(part, substep);
     NearBalls balls{.balls = part.balls.data(),
-                    .half_thickness = numbers_.half_thickness,
-                    .nearest = nearest_of_faces(numbers_.half_thickness)};
+                    .half_thickness = numbers_.half_thickness_range[1],
+                    .nearest = nearest_of_faces(numbers_.half_thickness_range[1])};
     for (const ColliderRun& run : part.runs()) {
         const bool presses = supports(part.near(run));
         const Range range{run.begin, run.end};
@@ -127,7 +127,7 @@ void ClothRun::run_body_contacts(const Pass& pass, std::uint32_t substep, Range 
 // particles.
 void ClothRun::mark_near_faces(const ColliderRun& run, const NearCollider& near, ContactView& view) const {
     view.near_faces = cloth_.face_contacts.near_faces(run);
-    view.nearest = nearest_of_faces(numbers_.half_thickness);
+    view.nearest = nearest_of_faces(numbers_.half_thickness_range[1]);
     view.widest = widest_to_touch(near.collider);
 }
 
@@ -152,6 +152,11 @@ void ClothRun::place_balls(ColliderPart& part, std::uint32_t substep) const {
         part.balls.push_back(ball_of(bodies_.collider_of(body), substep));
 }
 
+ThicknessView ClothRun::thickness() const {
+    const AlignedVector<float>& factors = cloth_.thickness_factors;
+    return {.half = numbers_.half_thickness, .factors = factors.empty() ? nullptr : factors.data()};
+}
+
 ContactView ClothRun::contact_view(const NearCollider& near, std::uint32_t substep) const {
     const Collider& collider = input_.colliders[near.collider];
     const std::uint32_t body = bodies_.body_of(near.collider);
@@ -166,7 +171,7 @@ ContactView ClothRun::contact_view(const NearCollider& near, std::uint32_t subst
             .before = body == none ? input_.places->pose(near.collider, substep) : bodies_.before(body),
             .static_friction = static_friction,
             .kinetic_friction = kinetic_friction,
-            .half_thickness = numbers_.half_thickness,
+            .thickness = thickness(),
             .depenetration = numbers_.depenetration,
             .fall = input_.gravity * numbers_.h,
             .h = numbers_.h,
@@ -183,7 +188,7 @@ void ClothRun::for_each_near_face(const Pass& pass, std::uint32_t substep, Worke
     ColliderPart& part = cloth_.near_colliders.part(worker.number);
     FaceContacts& contacts = cloth_.face_contacts;
     place_balls(part, substep);
-    const float nearest = pass.kind == PassKind::find_faces ? nearest_of_faces(numbers_.half_thickness) : 0;
+    const float nearest = pass.kind == PassKind::find_faces ? nearest_of_faces(numbers_.half_thickness_range[1]) : 0;
     const auto touches = [&](const NearCollider& near) {
         const std::uint32_t body = bodies_.body_of(near.collider);
         return body == none ? faces_touch(model(), input_.colliders[near.collider]) : part.balls[body].widest > 0;
@@ -218,7 +223,6 @@ void ClothRun::for_each_near_face(const Pass& pass, std::uint32_t substep, Worke
 
 void ClothRun::run_face_contact(const Pass& pass, std::uint32_t substep, Worker worker) const {
     FaceContacts& contacts = cloth_.face_contacts;
-    const float nearest = nearest_of_faces(numbers_.half_thickness);
     const FacesByTile& faces = *model().faces_by_tile;
     switch (pass.kind) {
         case PassKind::find_faces:
@@ -229,13 +233,13 @@ void ClothRun::run_face_contact(const Pass& pass, std::uint32_t substep, Worker 
                     const std::uint32_t body = bodies_.body_of(near.collider);
                     const bool moved = body != none && bodies_.feels_cloth(body);
                     const std::size_t found = contacts.find(passes_, worker.number, view_, faces, near.collider,
-                                                            contact_view(near, substep), nearest, moved);
+                                                            contact_view(near, substep), moved);
                     if (moved) bodies_.add_touches(worker.number, body, static_cast<std::uint32_t>(found));
                 });
             break;
         case PassKind::push_faces:
             contacts.push(passes_, worker.number, view_, bodies_, pass.batch == face_sweeps, numbers_.depenetration,
-                          nearest);
+                          thickness());
             break;
         case PassKind::move_faces:
             move_faces(pass.batch == face_sweeps, worker);
@@ -247,7 +251,7 @@ void ClothRun::run_face_contact(const Pass& pass, std::uint32_t substep, Worker 
                 [&](const ColliderRun& run) { contacts.collect_swept(worker.number, faces, run); },
                 [&](const NearCollider& near) {
                     contacts.hold(passes_, worker.number, view_, faces, near.collider, contact_view(near, substep),
-                                  nearest, pass.batch > 0);
+                                  pass.batch > 0);
                 });
             break;
         default:  // settle_faces

@@ -49,7 +49,7 @@ void ClothRun::run_shelter(const AirView& air, float reach, Range mine, unsigned
                                .before = pose,
                                .static_friction = 0,
                                .kinetic_friction = 0,
-                               .half_thickness = 0,
+                               .thickness = {.half = 0},
                                .depenetration = 0};
         passes_.shelter(air, view, reach, mine);
     }

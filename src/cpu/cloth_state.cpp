@@ -19,6 +19,7 @@ ClothState::ClothState(std::shared_ptr<const ClothModel> cloth_model, WorldArray
     kept().resize(model->kept_floats());
     find_halves();
     begin_tearing();
+    take_thickness();
     by_face.resize(std::size_t{model->face_stride} + 1);
     update_normals();
 }
@@ -55,6 +56,7 @@ void ClothState::set_model(std::shared_ptr<const ClothModel> other, std::uint32_
     kept().assign(still.begin(), still.end());
     find_halves();
     begin_tearing();
+    take_thickness();
     gather = nullptr;
     face_mass.clear();
     levels.clear();
@@ -70,6 +72,10 @@ void ClothState::set_material(std::shared_ptr<const ClothModel> other) {
     model = std::move(other);
     begin_tearing();
     if (!same_masses) weigh();
+}
+
+void ClothState::take_thickness() {
+    thickness_factors.assign(model->thickness_factors.begin(), model->thickness_factors.end());
 }
 
 // Keeps the current pins, not the model's.
@@ -112,6 +118,7 @@ void ClothState::set_topology(std::shared_ptr<const ClothModel> other, std::span
     } else {
         begin_tearing();
     }
+    take_thickness();
     gather = nullptr;
     if (!same_masses) weigh();
     if (!same_levels) levels.clear();

@@ -35,7 +35,8 @@ struct ClothState {
     std::shared_ptr<const ClothModel> model;
     WorldArrays& world;
     std::uint32_t base;
-    bool rests = false;  ///< in this frame: it is the surface of a collider that does not move
+    AlignedVector<float> thickness_factors;  ///< of the model; particles that openings copy in the frame have theirs
+    bool rests = false;                      ///< in this frame: it is the surface of a collider that does not move
 
     Particles now() const { return world.range(base, model->capacity()); }
     std::span<Vec4> normals() const { return std::span(world.normals).subspan(base, model->capacity()); }
@@ -117,6 +118,7 @@ struct ClothState {
     void update_normals();
 
   private:
+    void take_thickness();
     void weigh();
     void begin_tearing();
     void find_halves();

@@ -12,7 +12,33 @@ WEFT_FN ContactBody make_body(const ContactView& c) {
     return {spread(c.now.rotation.x),    spread(c.now.rotation.y),    spread(c.now.rotation.z),
             spread(c.now.position),      spread(c.before.rotation.x), spread(c.before.rotation.y),
             spread(c.before.rotation.z), spread(c.before.position),   real(c.static_friction),
-            real(c.kinetic_friction),    real(c.half_thickness), real(c.depenetration)};
+            real(c.kinetic_friction),    real(c.thickness.half), real(c.depenetration)};
+}
+
+// Numbers of particles, in the order of lanes that hold blocks unordered.
+WEFT_FN real load_unordered(const float* numbers, std::size_t i) {
+    alignas(64) float lanes[16];
+    for (std::size_t lane = 0; lane < lane_count; ++lane) lanes[lane] = numbers[i + unordered_particle(lane)];
+    return load(lanes);
+}
+
+// Half of the thickness at particles.
+WEFT_FN real half_thickness_at(const ThicknessView& thickness, std::size_t i) {
+    const real half = real(thickness.half);
+    return thickness.factors ? half * load_unordered(thickness.factors, i) : half;
+}
+
+// Likewise where the particles of each lane's triangle are thinnest.
+WEFT_FN real half_thickness_of_faces(const ThicknessView& thickness, const std::uint32_t* a, const std::uint32_t* b,
+                                     const std::uint32_t* c) {
+    const real half = real(thickness.half);
+    if (!thickness.factors) return half;
+    alignas(64) float least[16];
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+        const float* const factors = thickness.factors;
+        least[lane] = std::min(factors[a[lane]], std::min(factors[b[lane]], factors[c[lane]]));
+    }
+    return half * load(least);
 }
 
 inline std::uint32_t first_outside_pass(const float* position, std::span<const Bounds> boxes, Range range,
@@ -46,11 +72,7 @@ inline std::uint32_t first_outside_pass(const float* position, std::span<const B
 //   particle   first one of the lanes, in the cloth;  i   in the log
 WEFT_FN void trace_pass(const ContactView& c, std::size_t particle, std::size_t i, vec3 before, vec3 x, real w) {
     real unused, heavier = real(1.0f);
-    if (c.free) {
-        alignas(64) float free[16];
-        for (std::size_t lane = 0; lane < lane_count; ++lane) free[lane] = c.free[particle + unordered_particle(lane)];
-        heavier = mass_ratio(w, load(free));
-    }
+    if (c.free) heavier = mass_ratio(w, load_unordered(c.free, particle));
     ContactTrace trace;
     trace.moved = load_blocks_unordered(c.moved + 4 * i, unused);
     trace.turned = load_blocks_unordered(c.turned + 4 * i, unused);
@@ -90,9 +112,10 @@ WEFT_FN vec3 add_taken(const SupportView& view, real number, ContactSum& sum, Co
 
 template <class Shape>
 inline void find_support_pass(const ParticleView& p, const ContactView& c, Range range) {
-    const ContactBody body = make_body(c);
+    ContactBody body = make_body(c);
     const Solid solid = solid_of(c);
     for (std::size_t i = range.begin; i < range.end; i += lane_count) {
+        body.half_thickness = half_thickness_at(c.thickness, i);
         real unused;
         const vec3 x = load_blocks_unordered(p.position + 4 * i, unused);
         vec3 normal;
@@ -123,6 +146,7 @@ inline void contact_pass(const ParticleView& p, const ContactView& c, Range rang
         const std::size_t at = i - range.begin;
         if (c.sums && !c.first_iteration) sum.friction = load_blocks_unordered(c.sums + 4 * at, sum.push);
         ContactBody body = all;
+        body.half_thickness = half_thickness_at(c.thickness, i);
         const vec3 taken = add_taken(c.support, real(c.number), sum, body, i);
 
         const vec3 local = to_body(body, x);
@@ -185,10 +209,11 @@ WEFT_FN real inside_support(const Support& support, const ContactBody& body, con
 
 template <class Shape>
 inline void count_touches_pass(const ParticleView& p, const ContactView& c, const BodyView& b, Range range) {
-    const ContactBody body = make_body(c);
+    ContactBody body = make_body(c);
     const Solid solid = solid_of(c);
     const ContactSum none = {vec3(real(0.0f)), real(0.0f)};
     for (std::size_t i = range.begin; i < range.end; i += lane_count) {
+        body.half_thickness = half_thickness_at(c.thickness, i);
         const LaneContact lane = lane_contact<Shape>(p, body, solid, i);
         const real inside = inside_support(load_support(c.support, i), body, lane);
         if (!any(may_touch(lane.gap + inside, none, lane.way, solid, body))) continue;
@@ -218,10 +243,11 @@ WEFT_FN void add_to_body(const BodyView& b, vec3 by, vec3 x, real w) {
 
 template <class Shape>
 inline void touch_body_pass(const ParticleView& p, const ContactView& c, const BodyView& b, Range range) {
-    const ContactBody body = make_body(c);
+    ContactBody body = make_body(c);
     const Solid solid = solid_of(c);
     const MovedBody moved = moved_body(b);
     for (std::size_t i = range.begin; i < range.end; i += lane_count) {
+        body.half_thickness = half_thickness_at(c.thickness, i);
         LaneContact lane = lane_contact<Shape>(p, body, solid, i);
         ContactSum sum = {vec3(real(0.0f)), real(0.0f)};
         const std::size_t at = i - range.begin;
@@ -322,11 +348,12 @@ WEFT_FN void load_faces(const ParticleView& p, const FaceView& faces, const std:
 template <class Shape>
 inline void touch_faces(const ParticleView& p, const ContactView& c, const FaceView& faces, const std::uint32_t* items,
                         mask mine, FaceRows& to) {
-    const ContactBody body = make_body(c);
+    ContactBody body = make_body(c);
     const Solid solid = solid_of(c);
-    const real nearest = real(faces.nearest);
     LaneFaces lanes;
     load_faces<Shape>(p, faces, items, body, solid, lanes);
+    body.half_thickness = half_thickness_of_faces(c.thickness, lanes.corners[0], lanes.corners[1], lanes.corners[2]);
+    const real nearest = nearest_of_faces(body.half_thickness);
     const FaceContact contact =
         face_contact(solid, lanes.local_at_start, lanes.local, lanes.center, nearest, body.half_thickness,
                      faces.hold ? least_after_pushes(nearest) : -body.half_thickness);
@@ -341,8 +368,6 @@ template <class Shape>
 inline void find_faces_pass(const ParticleView& p, const ContactView& c, const FaceView& faces, FaceRows& to) {
     const ContactBody body = make_body(c);
     const Solid solid = solid_of(c);
-    // A face that has passed has touched on its way.
-    const real nearest = real(faces.hold ? 0.0f : faces.nearest);
     alignas(64) std::uint32_t items[48];
     std::size_t count = 0;
     for (std::size_t i = 0; i < faces.count; i += lane_count) {
@@ -350,6 +375,10 @@ inline void find_faces_pass(const ParticleView& p, const ContactView& c, const F
         load_faces<Shape>(p, faces, faces.items + i, body, solid, lanes);
         const std::size_t left = faces.count - i;
         const mask mine = mask_of(left < 16 ? (1u << left) - 1u : 0xffffu);
+        // A face that has passed has touched on its way.
+        const real nearest = faces.hold ? real(0.0f)
+                                        : nearest_of_faces(half_thickness_of_faces(
+                                              c.thickness, lanes.corners[0], lanes.corners[1], lanes.corners[2]));
         const mask may = mine && face_may_touch(lanes.local_at_start, lanes.local, lanes.center, solid, nearest);
         if (!any(may)) continue;
         compress(faces.items + i, may, items + count);
@@ -394,7 +423,7 @@ WEFT_FN void add_face_pushes(const std::uint32_t* corners, vec3 push, mask acts,
 
 // On lanes `begin` is a multiple of their number.
 inline void push_faces_pass(const ParticleView& p, const FaceRows& rows, std::size_t begin, std::size_t end, bool last,
-                            float depenetration, float nearest, const FaceSums& to) {
+                            float depenetration, const ThicknessView& thickness, const FaceSums& to) {
     for (std::size_t i = begin; i < end; i += lane_count) {
         const FaceRow row = load_row(rows, i, depenetration);
         const std::size_t left = end - i;
@@ -409,8 +438,10 @@ inline void push_faces_pass(const ParticleView& p, const FaceRows& rows, std::si
             real missing[3], unused;
             const vec3 packed = load_blocks(rows.gaps + 4 * i, unused);
             const real gaps[3] = {packed.x, packed.y, packed.z};
+            const real nearest = nearest_of_faces(half_thickness_of_faces(thickness, rows.corners[0] + i,
+                                                                          rows.corners[1] + i, rows.corners[2] + i));
             for (int k = 0; k < 3; ++k) {
-                missing[k] = face_retreat(row, point, x[k], gaps[k], real(nearest));
+                missing[k] = face_retreat(row, point, x[k], gaps[k], nearest);
                 push[k] = row.normal * missing[k];
             }
             store_blocks(vec3(missing[0], missing[1], missing[2]), row.swept, rows.displacement + 4 * i);

@@ -24,6 +24,8 @@ TEST_P(ContactPasses, touches_every_shape_alike) {
             const Fixture state = random_state(seed, seed % 2);
             compare(state, [&](const Passes& passes, Fixture& f) {
                 AlignedVector<Vec4> sums(f.position.size());
+                AlignedVector<float> factors(f.position.size());
+                for (std::size_t p = 0; p < factors.size(); ++p) factors[p] = 0.2f + static_cast<float>(p % 7);
                 ContactView view{.kind = static_cast<int>(shape),
                                  .numbers = {0.6f, 0.64f, 0.48f, 0.1f},
                                  .data = sample_blocks(shape),
@@ -34,7 +36,7 @@ TEST_P(ContactPasses, touches_every_shape_alike) {
                                  .before = there,
                                  .static_friction = 0.4f,
                                  .kinetic_friction = 0.3f,
-                                 .half_thickness = 0.001f,
+                                 .thickness = {0.001f, seed % 3 ? nullptr : factors.data()},
                                  .depenetration = 0.0008f,
                                  .sums = &sums[0].x,
                                  .first_iteration = true};
@@ -82,7 +84,7 @@ TEST_P(ContactPasses, touches_every_shape_alike_at_degenerate_places) {
                                            .before = {},
                                            .static_friction = 0.4f,
                                            .kinetic_friction = 0.3f,
-                                           .half_thickness = seed % 3 ? 2 * size : 1e7f,
+                                           .thickness = {seed % 3 ? 2 * size : 1e7f},
                                            .depenetration = 0.0008f,
                                            .sums = &sums[0].x,
                                            .first_iteration = true};
@@ -110,7 +112,7 @@ TEST_P(ContactPasses, keeps_the_same_account_of_contacts_and_moves_nothing_else_
                              .before = {rotation_from_degrees({11, 19, 30}), {0.1f, 0.19f, 0.3f}},
                              .static_friction = 0.4f,
                              .kinetic_friction = 0.3f,
-                             .half_thickness = 0.001f,
+                             .thickness = {0.001f},
                              .depenetration = 0.0008f,
                              .sums = &sums[0].x,
                              .first_iteration = true};

@@ -161,10 +161,9 @@ void FaceContacts::collect_swept(unsigned worker, const FacesByTile& faces, cons
     collect(parts_[worker], swept_.data(), faces, run);
 }
 
-FaceView FaceContacts::view(const Part& part, const FacesByTile& faces, float nearest) const {
+FaceView FaceContacts::view(const Part& part, const FacesByTile& faces) const {
     return {.corners = faces.corners.data(),
             .stride = faces.stride,
-            .nearest = nearest,
             .items = part.is_narrowed ? part.narrowed.data() : part.items.data(),
             .count = part.is_narrowed ? part.narrowed_count : part.item_count};
 }
@@ -174,11 +173,11 @@ bool FaceContacts::narrow(const Passes& passes, unsigned worker, const ParticleV
     Part& part = parts_[worker];
     if (part.item_count == 0) return false;
     part.is_narrowed = false;
-    const FaceView all = view(part, faces, nearest);
+    const FaceView all = view(part, faces);
     const FaceMeasures measures{part.measures.data(), part.measures.size() / numbers_per_face};
     if (!part.is_measured) passes.measure_faces(particles, all, measures);
     part.is_measured = true;
-    part.narrowed_count = passes.near_faces(all, measures, ball, part.narrowed.data());
+    part.narrowed_count = passes.near_faces(all, measures, ball, nearest, part.narrowed.data());
     part.is_narrowed = true;
     if (part.narrowed_count == 0) return false;
     // Lanes beyond the last one read a valid face.
@@ -188,13 +187,12 @@ bool FaceContacts::narrow(const Passes& passes, unsigned worker, const ParticleV
 
 std::size_t FaceContacts::find(const Passes& passes, unsigned worker, const ParticleView& particles,
                                const FacesByTile& faces, std::uint32_t collider, const ContactView& contact,
-                               float nearest, bool is_body) {
+                               bool is_body) {
     Part& part = parts_[worker];
     if (part.item_count == 0) return 0;
     make_room(part, part.rows.count + part.item_count);
     const std::size_t before = part.rows.count;
-    passes.find_faces[static_cast<std::uint32_t>(contact.kind)](particles, contact, view(part, faces, nearest),
-                                                                part.rows);
+    passes.find_faces[static_cast<std::uint32_t>(contact.kind)](particles, contact, view(part, faces), part.rows);
     if (part.rows.count == before) return 0;
     part.any_of_bodies = part.any_of_bodies || is_body;
     if (!part.groups.empty() && part.groups.back().collider == collider)
@@ -210,17 +208,17 @@ std::size_t FaceContacts::find(const Passes& passes, unsigned worker, const Part
 }
 
 void FaceContacts::hold(const Passes& passes, unsigned worker, const ParticleView& particles, const FacesByTile& faces,
-                        std::uint32_t collider, const ContactView& contact, float nearest, bool still) {
+                        std::uint32_t collider, const ContactView& contact, bool still) {
     Part& part = parts_[worker];
     if (part.item_count == 0) return;
     HoldTarget target{holds_.data(), &part.held, collider % WEFT_HOLD_COLLIDERS, still};
-    FaceView of = view(part, faces, nearest);
+    FaceView of = view(part, faces);
     of.hold = hold_corner, of.holds = &target;
     passes.find_faces[static_cast<std::uint32_t>(contact.kind)](particles, contact, of, part.rows);
 }
 
 void FaceContacts::push(const Passes& passes, unsigned worker, const ParticleView& particles, Bodies& bodies, bool last,
-                        float depenetration, float nearest) {
+                        float depenetration, const ThicknessView& thickness) {
     Part& part = parts_[worker];
     part.pushed.clear();
     FaceTarget target{sums_.data(), &part.pushed};
@@ -229,7 +227,7 @@ void FaceContacts::push(const Passes& passes, unsigned worker, const ParticleVie
         std::fill_n(part.rows.corners[k] + part.rows.count, lane_padding, 0u);
     const FaceSums sums{&target, workers_ > 1 ? add_shared : add_alone};
     if (!part.any_of_bodies) {
-        passes.push_faces(particles, part.rows, 0, part.rows.count, last, depenetration, nearest, sums);
+        passes.push_faces(particles, part.rows, 0, part.rows.count, last, depenetration, thickness, sums);
         return;
     }
     // Groups begin anywhere, so their contacts come one at a time.
@@ -237,7 +235,7 @@ void FaceContacts::push(const Passes& passes, unsigned worker, const ParticleVie
     for (const Group& group : part.groups) {
         const std::uint32_t body = bodies.body_of(group.collider);
         if (last || body == none || !bodies.feels_cloth(body)) {
-            scalar_passes().push_faces(particles, part.rows, begin, group.end, last, depenetration, nearest, sums);
+            scalar_passes().push_faces(particles, part.rows, begin, group.end, last, depenetration, thickness, sums);
         } else {
             scalar_passes().push_faces_of_body(particles, part.rows, begin, group.end, depenetration,
                                                bodies.view(body, worker), bodies.found(body), bodies.now(body), sums);

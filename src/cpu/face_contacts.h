@@ -35,7 +35,7 @@ class FaceContacts {
     /// Collects the faces that may touch of a run of particles, for calls of find().
     void collect(unsigned worker, const FacesByTile& faces, const ColliderRun& run);
     /// Leaves to the next call of find() or hold() only those of the collected faces that may touch the collider in the
-    /// ball. Returns whether there are any.
+    /// ball. Returns whether there are any. `nearest`: m, no face touches farther away.
     bool narrow(const Passes& passes, unsigned worker, const ParticleView& particles, const FacesByTile& faces,
                 const MovingBall& ball, float nearest);
     /// Ends the calls for the collected faces.
@@ -43,10 +43,10 @@ class FaceContacts {
     /// Appends the contacts of the collected faces with a collider.
     /// Returns how many.
     std::size_t find(const Passes& passes, unsigned worker, const ParticleView& particles, const FacesByTile& faces,
-                     std::uint32_t collider, const ContactView& contact, float nearest, bool is_body);
+                     std::uint32_t collider, const ContactView& contact, bool is_body);
     /// Adds the pushes of a worker's contacts. `last`: of the sweep that keeps faces from passing.
     void push(const Passes& passes, unsigned worker, const ParticleView& particles, Bodies& bodies, bool last,
-              float depenetration, float nearest);
+              float depenetration, const ThicknessView& thickness);
     /// Whether there are contacts with bodies that cloth moves. Valid for all workers after all have found theirs.
     bool any_of_bodies() const;
     /// Moves the particles whose first push came from a contact of this worker.
@@ -63,7 +63,7 @@ class FaceContacts {
     /// Marks particles of those faces that have passed, after all pushes. `still`: they go no part of their way,
     /// otherwise the part before the touch.
     void hold(const Passes& passes, unsigned worker, const ParticleView& particles, const FacesByTile& faces,
-              std::uint32_t collider, const ContactView& contact, float nearest, bool still);
+              std::uint32_t collider, const ContactView& contact, bool still);
     /// Calls visit(particle, collider, part of its way) for the particles that a worker marked, and unmarks them.
     template <class Visit>
     void for_each_held(unsigned worker, Visit&& visit);
@@ -93,7 +93,7 @@ class FaceContacts {
     };
 
     static void collect(Part& part, const std::uint8_t* marks, const FacesByTile& faces, const ColliderRun& run);
-    FaceView view(const Part& part, const FacesByTile& faces, float nearest) const;
+    FaceView view(const Part& part, const FacesByTile& faces) const;
 
     static void make_room(Part& part, std::size_t rows);
     /// What a contact does to a corner; in other than the last sweep, per inverse mass.

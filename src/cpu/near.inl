@@ -68,8 +68,8 @@ inline void measure_faces_pass(const ParticleView& p, const FaceView& faces, con
 
 // See face_may_touch().
 inline std::uint32_t near_faces_pass(const FaceView& faces, const FaceMeasures& measures, const MovingBall& ball,
-                                     std::uint32_t* to) {
-    const real nearest = real(faces.nearest), steepness = real(ball.steepness);
+                                     float nearest_of_all, std::uint32_t* to) {
+    const real nearest = real(nearest_of_all), steepness = real(ball.steepness);
     std::uint32_t count = 0;
     for (std::size_t i = 0; i < faces.count; i += lane_count) {
         const auto number = [&](std::size_t k) { return load(measures.numbers + k * measures.stride + i); };

@@ -35,6 +35,7 @@ class Near : public InstructionSet {
   protected:
     struct Case {
         AlignedVector<Vec4> position = AlignedVector<Vec4>(point_count), start = position;
+        AlignedVector<float> factors;  // on the thickness; empty: 1 everywhere
         Pose before, now;
     };
 
@@ -52,6 +53,8 @@ class Near : public InstructionSet {
         const Vec3 middle = vector(1.2f);
         const float size = std::pow(10.0f, in(-2.5f, 0)), own_way = std::pow(10.0f, in(-5, 0));
         const bool follows = in(0, 1) < 0.5f;
+        if (in(0, 1) < 0.5f)
+            for (std::uint32_t p = 0; p < point_count; ++p) made.factors.push_back(in(0.1f, 1));
         const Vec3 common = follows ? made.now.position - made.before.position : Vec3{};
         for (std::uint32_t p = 0; p < point_count; ++p) {
             const Vec3 x = middle + vector(size), from = x + vector(own_way) - common;
@@ -72,7 +75,7 @@ class Near : public InstructionSet {
                 .before = in.before,
                 .static_friction = 0.4f,
                 .kinetic_friction = 0.3f,
-                .half_thickness = half_thickness,
+                .thickness = {half_thickness, in.factors.empty() ? nullptr : in.factors.data()},
                 .depenetration = deep};
     }
 
@@ -147,17 +150,15 @@ TEST_P(Near, faces_that_are_left_out_would_have_no_contact) {
                 items.push_back(f);
             }
             items.resize(faces + lane_padding, 0u);
-            FaceView view{.corners = corners.data(),
-                          .stride = corners_stride,
-                          .nearest = trial % 4 ? 0.5f * half_thickness : 0,
-                          .items = items.data(),
-                          .count = faces};
+            FaceView view{.corners = corners.data(), .stride = corners_stride, .items = items.data(), .count = faces};
             AlignedVector<float> numbers(numbers_per_face * corners_stride);
+            ContactView contact = contact_view(collider, one);
+            contact.thickness.half = trial % 4 ? half_thickness : 0;
             const FaceMeasures measures{numbers.data(), corners_stride};
             GetParam()->measure_faces(view_of(one), view, measures);
             std::vector<std::uint32_t> near(faces + lane_padding);
             const MovingBall ball = moving_ball(collider, ball_radius(collider), one.before, one.now, 0);
-            near.resize(GetParam()->near_faces(view, measures, ball, near.data()));
+            near.resize(GetParam()->near_faces(view, measures, ball, 0.5f * contact.thickness.half, near.data()));
             ASSERT_TRUE(std::ranges::is_sorted(near));
             std::ranges::set_difference(std::span(items).first(faces), near, std::back_inserter(rest));
             tested[0] += static_cast<std::uint32_t>(near.size()), tested[1] += static_cast<std::uint32_t>(rest.size());
@@ -174,7 +175,7 @@ TEST_P(Near, faces_that_are_left_out_would_have_no_contact) {
             for (std::size_t k = 0; k < 6; ++k) *arrays[k] = &blocks[k * corners_stride].x;
             for (std::size_t k = 0; k < 3; ++k) rows.corners[k] = &row_corners[k * corners_stride];
             const auto shape = static_cast<std::uint32_t>(collider.shape);
-            GetParam()->find_faces[shape](view_of(one), contact_view(collider, one), view, rows);
+            GetParam()->find_faces[shape](view_of(one), contact, view, rows);
             ASSERT_EQ(rows.count, 0u) << "shape " << shape << ", trial " << trial;
         }
     }

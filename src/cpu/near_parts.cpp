@@ -20,8 +20,7 @@ float reach_of(const ClothModel& model, float surface_motion) {
     if (model.along_curve) reach = 0.5f * particle_diameter(model);
     if (model.tiles) {
         // Sweeps and the limit move particles by a cap and a part of it.
-        const float thickness = std::max(model.fabric.contact.thickness, least_contact_thickness);
-        reach = std::max(reach, 0.5f * thickness + 1.5f * carried_cap(contact_cap(model), surface_motion));
+        reach = std::max(reach, 0.5f * pair_thickness(model) + 1.5f * carried_cap(contact_cap(model), surface_motion));
     }
     return reach;
 }

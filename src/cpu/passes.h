@@ -69,6 +69,12 @@ struct SupportView {
 
 inline constexpr std::size_t support_arrays = 4;
 
+/// How thick a cloth is.
+struct ThicknessView {
+    float half;                      ///< m, of the fabric
+    const float* factors = nullptr;  ///< on it, by particle of the cloth; nullptr: 1 everywhere
+};
+
 struct ContactView {
     int kind;                                    ///< of the shape
     std::array<float, 4> numbers;                ///< of the shape
@@ -76,17 +82,18 @@ struct ContactView {
     float steepness, roundness, layer_distance;  ///< of the shape (swept.kernel.h)
     Pose now, before;                            ///< at the end and at the start of the substep
     float static_friction, kinetic_friction;
-    float half_thickness, depenetration;  ///< m
-    Vec3 fall = {};                       ///< m/s: what gravity adds to the velocity in a substep
-    float h = 0;                          ///< s
-    float* sums = nullptr;                ///< a ContactSum per particle of the range; nullptr with a single iteration
-    bool first_iteration = true;          ///< of the substep: sums begin anew
+    ThicknessView thickness;
+    float depenetration;          ///< m
+    Vec3 fall = {};               ///< m/s: what gravity adds to the velocity in a substep
+    float h = 0;                  ///< s
+    float* sums = nullptr;        ///< a ContactSum per particle of the range; nullptr with a single iteration
+    bool first_iteration = true;  ///< of the substep: sums begin anew
     float* moved = nullptr;       ///< ContactTrace, blocks of four per particle of the range; contact_traced only
     float* turned = nullptr;      ///< likewise
     const float* free = nullptr;  ///< 1/kg, by particle of the cloth: inverse masses if particles may weigh more now
     /// Set for the particles of the range whose faces may touch, or that contact moves; nullptr if no face is to touch.
     std::uint8_t* near_faces = nullptr;
-    float nearest = 0, widest = 0;  ///< m: nearest_of_faces(), widest_face()
+    float nearest = 0, widest = 0;  ///< m: nearest_of_faces() where the cloth is thickest, widest_face()
     SupportView support = {};       ///< contact with bodies, and with the colliders that support
     float number = 0;               ///< of the collider
 };
@@ -122,7 +129,7 @@ struct MovingBall {
 /// Bodies that may be near a range of particles.
 struct NearBalls {
     const MovingBall* balls;                 ///< by body
-    float half_thickness, nearest;           ///< as in ContactView
+    float half_thickness, nearest;           ///< m: nearest_of_faces() of it; where the cloth is thickest
     const std::uint32_t* numbers = nullptr;  ///< of the bodies; `none`: not a body
     const std::uint8_t* always = nullptr;    ///< in the order of `numbers`: whether it counts as near; null: none does
     std::uint32_t count = 0;
@@ -134,7 +141,6 @@ struct NearBalls {
 struct FaceView {
     const std::uint32_t* corners;  ///< [corner · stride + triangle]
     std::uint32_t stride;
-    float nearest;               ///< m: nearest_of_faces()
     const std::uint32_t* items;  ///< numbers of the triangles to look at; room for lane_padding more
     std::uint32_t count;
     /// If set, contacts are not appended: the corners of faces that have passed are held at a part of their way.
@@ -310,16 +316,18 @@ struct Passes {
     /// Like `contact`, but the body takes its share: adds to its sums.
     std::array<void (*)(const ParticleView&, const ContactView&, const BodyView&, Range), shape_kind_count> touch_body;
     void (*measure_faces)(const ParticleView&, const FaceView&, const FaceMeasures&);
-    /// Writes those of the items that may touch the collider in the ball. `to` has room for lane_padding more than all.
+    /// Writes those of the items that may touch the collider in the ball. `nearest`: m, nearest_of_faces() where the
+    /// cloth is thickest. `to` has room for lane_padding more than all.
     /// Returns how many.
-    std::uint32_t (*near_faces)(const FaceView&, const FaceMeasures&, const MovingBall&, std::uint32_t* to);
+    std::uint32_t (*near_faces)(const FaceView&, const FaceMeasures&, const MovingBall&, float nearest,
+                                std::uint32_t* to);
     /// Appends the contacts of triangles with a collider.
     std::array<void (*)(const ParticleView&, const ContactView&, const FaceView&, FaceRows&), shape_kind_count>
         find_faces;
     /// Adds the pushes of all contacts from `begin` to `end` to the particles' sums. `last`: of the sweep that keeps
     /// faces from passing.
     void (*push_faces)(const ParticleView&, const FaceRows&, std::size_t begin, std::size_t end, bool last,
-                       float depenetration, float nearest, const FaceSums&);
+                       float depenetration, const ThicknessView&, const FaceSums&);
     /// Likewise, but each body takes its share; those from `begin` to `end`, which are contacts of one body.
     void (*push_faces_of_body)(const ParticleView&, const FaceRows&, std::size_t begin, std::size_t end,
                                float depenetration, const BodyView&, const Pose& found, const Pose& now,

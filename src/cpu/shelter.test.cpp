@@ -58,7 +58,7 @@ TEST(ShelterPass, gives_every_shape_the_same_shelter_on_every_instruction_set) {
                                        .before = {},
                                        .static_friction = 0,
                                        .kinetic_friction = 0,
-                                       .half_thickness = 0,
+                                       .thickness = {.half = 0},
                                        .depenetration = 0};
             const float scale = seed == 10 ? 1e6f : seed == 11 ? 1e-6f : 3.0f;
             const auto run = [&](const Passes& passes) {

@@ -223,8 +223,9 @@ void Tearing::open_vertex(const scalar::TearAccess& access, std::uint32_t vertex
     add_around(access.model, vertex);
 }
 
-void Tearing::open(const scalar::TearAccess& access, const scalar::TearOpening& opening, const Particles& now,
-                   std::span<float> weights) {
+void Tearing::open(const scalar::TearAccess& access, const scalar::TearOpening& opening,
+                   const TornParticles& particles) {
+    const auto& [now, weights, thickness_factors] = particles;
     const std::uint32_t before = arrays_.particle_count;
     const Opening links{{opening.first, opening.second}, {opening.first_strayed, opening.second_strayed}};
     if (!Opener(access.model, arrays_, access.stretch).open(links)) return;
@@ -235,6 +236,7 @@ void Tearing::open(const scalar::TearAccess& access, const scalar::TearOpening& 
         for (const auto& array : {now.position, now.start, now.velocity, now.compensation}) array[copy] = array[from];
         weights_before_.push_back({copy, weights[copy]});
         weights[copy] = weights[from];
+        if (!thickness_factors.empty()) thickness_factors[copy] = thickness_factors[from];
     }
     for (std::uint32_t k = 0; k < 3; ++k) {
         const std::uint32_t vertex = scalar::tear_opened_vertex(access, opening, k);
@@ -242,8 +244,9 @@ void Tearing::open(const scalar::TearAccess& access, const scalar::TearOpening& 
     }
 }
 
-void Tearing::run(const Passes& passes, const ClothModel& model, const Particles& now, std::span<float> weights,
+void Tearing::run(const Passes& passes, const ClothModel& model, const TornParticles& particles,
                   std::uint32_t substep) {
+    const auto& [now, weights, unused] = particles;
     if (substep == 0) begin_watching(model);
     if (watched_.empty()) return;
     list_loaded(passes, model, &now.position.data()->x);
@@ -268,7 +271,7 @@ void Tearing::run(const Passes& passes, const ClothModel& model, const Particles
     if (chosen_.size() > WEFT_TEAR_MOST_OPENINGS) chosen_.resize(WEFT_TEAR_MOST_OPENINGS);
     for (const std::uint32_t p : chosen_) {
         const scalar::TearOpening opening = scalar::tear_opening(access, p, loads_[p]);
-        if (opening.first != none) open(access, opening, now, weights);
+        if (opening.first != none) open(access, opening, particles);
     }
 }
 

@@ -13,6 +13,13 @@
 
 namespace weft::cpu {
 
+/// What the particles of a cloth have, and their copies get.
+struct TornParticles {
+    Particles points;
+    std::span<float> weights;
+    std::span<float> thickness_factors;  ///< empty: all 1
+};
+
 class Tearing {
   public:
     /// Copies the model's arrays. The model must have a tear law.
@@ -32,8 +39,7 @@ class Tearing {
     /// frame.
     void watch(const Passes& passes, const ClothModel& model, const float* position, Range triangles);
     /// Opens edges. One worker calls it in every substep.
-    void run(const Passes& passes, const ClothModel& model, const Particles& now, std::span<float> weights,
-             std::uint32_t substep);
+    void run(const Passes& passes, const ClothModel& model, const TornParticles& particles, std::uint32_t substep);
 
   private:
     void list_ends(const ClothModel& model);
@@ -47,8 +53,7 @@ class Tearing {
     void find_loads(const scalar::TearAccess& access, std::span<const float> weights, std::size_t from);
     void limit_end(const scalar::TearAccess& access, std::uint32_t particle);
     void add_around(const ClothModel& model, std::uint32_t vertex);
-    void open(const scalar::TearAccess& access, const scalar::TearOpening& opening, const Particles& now,
-              std::span<float> weights);
+    void open(const scalar::TearAccess& access, const scalar::TearOpening& opening, const TornParticles& particles);
     void open_vertex(const scalar::TearAccess& access, std::uint32_t vertex, const Particles& now,
                      std::span<float> weights);
 

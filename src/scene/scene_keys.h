@@ -225,7 +225,7 @@ inline constexpr Parameter cloth_keys[] = {
     {.key = "resistance", .kind = ParameterKind::list,
      .what = "particles that are weaker or stronger than the fabric; needs `tearing` `split` or `erode`"},
     {.key = "weights", .kind = ParameterKind::list,
-     .what = "particles whose cloth is heavier or lighter, stiffer or softer than the fabric"},
+     .what = "particles whose cloth is heavier or lighter, stiffer or softer, thicker or thinner than the fabric"},
     {.key = "material", .kind = ParameterKind::object,
      .what = "a material's name, or its values; for images and exports"},
 };
@@ -374,15 +374,17 @@ inline constexpr Parameter resistance_factor_keys[] = {
 inline constexpr Parameter weight_keys[] = {
     {.key = "of", .kind = ParameterKind::choice, .offset = offsetof(WeightDesc, of),
      .what = "what `factor` is multiplied with: the density of the fabric; its stiffness against stretch, shear and "
-             "compression; or its stiffness against bending",
-     .choices = "density|stretch|bend",
-     .choice_words = "mass per area|stiffness against stretch, shear and compression|stiffness against bending",
+             "compression; its stiffness against bending; or its thickness in contact",
+     .choices = "density|stretch|bend|thickness",
+     .choice_words = "mass per area|stiffness against stretch, shear and compression|stiffness against bending|thickness "
+                     "in contact",
      .required = true},
 };
 
 inline constexpr Parameter weight_factor_keys[] = {
     {.key = "factor", .offset = offsetof(WeightDesc, factor), .min = 0.001, .max = 1e6,
-     .what = "factor on the value of the fabric; a triangle has the mean of its corners"},
+     .what = "factor on the value of the fabric; a triangle has the mean of its corners, or the thickness of the "
+             "thinnest one"},
 };
 
 inline constexpr Parameter painted_channel_keys[] = {

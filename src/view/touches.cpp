@@ -15,7 +15,7 @@ namespace weft {
 namespace {
 
 // What touches comes to rest at its distance from the surface, up to what later pushes change: half a thickness for
-// particles, nearest_of_faces() for triangles. Limits between them, in half thicknesses.
+// particles, nearest_of_faces() for triangles. Limits between them, in half thicknesses of the place.
 constexpr double farthest_particle = 1.25, farthest_face = 0.75;
 
 /// The contacts of one cloth.
@@ -24,7 +24,6 @@ class ClothTouches {
     ClothTouches(const ClothFrame& cloth, std::vector<Touch>& touches)
         : cloth_(cloth),
           touches_(touches),
-          half_thickness_(0.5 * double{cloth.model->fabric.contact.thickness}),
           by_place_(cloth.positions.size()),
           faces_(group_items<std::uint32_t>(static_cast<std::uint32_t>(cloth.positions.size()),
                                             [&](auto put) {
@@ -44,7 +43,7 @@ class ClothTouches {
             const std::uint32_t particle = faces ? particle_at(contact.point) : none;
             const std::vector<std::size_t> of_faces =
                 particle == none ? std::vector<std::size_t>{} : faces_touching(particle, collider);
-            if (of_faces.empty() || touches_itself(contact.point, collider)) {
+            if (of_faces.empty() || touches_itself(particle, contact.point, collider)) {
                 touches_.push_back({contact.point, -contact.impulse});
                 continue;
             }
@@ -71,8 +70,13 @@ class ClothTouches {
         const auto found = std::ranges::lower_bound(by_place_, wanted, {}, [&](std::uint32_t p) { return place(p); });
         return found != by_place_.end() && place(*found) == wanted ? *found : none;
     }
-    bool touches_itself(Vec3 point, const Collider& collider) const {
-        return signed_distance(collider, point) < farthest_particle * half_thickness_;
+    double half_thickness(std::uint32_t particle) const {
+        const ClothModel& model = *cloth_.model;
+        const float factor = model.thickness_factors.empty() ? 1 : model.thickness_factors[particle];
+        return 0.5 * double{model.fabric.contact.thickness * factor};
+    }
+    bool touches_itself(std::uint32_t particle, Vec3 point, const Collider& collider) const {
+        return signed_distance(collider, point) < farthest_particle * half_thickness(particle);
     }
 
     /// Numbers of the touches of the faces around a particle. Adds those that are new.
@@ -100,7 +104,8 @@ class ClothTouches {
         const auto local = [&](std::uint32_t p) { return reference::to_double(to_local(collider.pose, corner(p))); };
         const reference::Solid solid = solid_of(collider);
         const reference::Corners x{local(a), local(b), local(c)};
-        const double enough = farthest_face * half_thickness_;
+        const double thinnest = std::min({half_thickness(a), half_thickness(b), half_thickness(c)});
+        const double enough = farthest_face * thinnest;
         const auto least = least_on_face(solid, x, face_point(solid, x, reference::center_weights()), enough);
         const auto& w = least.weights;
         if (!(least.distance < enough) || !is_beside_corners(w)) return std::nullopt;
@@ -110,7 +115,6 @@ class ClothTouches {
 
     const ClothFrame& cloth_;
     std::vector<Touch>& touches_;
-    double half_thickness_;                   // m
     std::vector<std::uint32_t> by_place_;     // particles, sorted by position
     Groups<std::uint32_t> faces_;             // of each particle
     std::vector<std::size_t> touch_of_face_;  // with the present collider

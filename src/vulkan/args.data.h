@@ -63,7 +63,7 @@ struct FrameIn {
     float gravity_y;
     float gravity_z;
     float viscous;         // s2   retardation time times the length of the frame
-    float half_thickness;  // m
+    float half_thickness;  // m, of the fabric
     float depenetration;   // m    per substep
     float drag;            // kg/m3
     float lift;
@@ -77,13 +77,14 @@ struct FrameIn {
     float tile_margin;      // m    FrameNumbers
     float static_friction;  // of the cloth alone
     float kinetic_friction;
-    float nearest_of_faces;  // m
+    float nearest_of_faces;  // m, where the cloth is thickest
     float circle_of_faces;   // m
     float widest_face;       // m
     float surface_motion;    // m: the most that a point of a collider's surface moves in a substep
     uint meets_surfaces;     // 1: the cloth meets the triangles of colliders that have a surface, not their shapes
-    uint unused;
-    Floats weights;  // 1/kg: inverse masses without taut edges and pins; 0: particles have no others
+    float least_half_thickness;  // m, where the cloth is thinnest
+    Floats weights;    // 1/kg: inverse masses without taut edges and pins; 0: particles have no others
+    Floats thickness;  // factors on half_thickness, by particle; 0: 1 everywhere
 };
 
 // Words of a report.

@@ -120,6 +120,7 @@ Result<std::unique_ptr<ClothState>> ClothState::create(gpu::Device& device, std:
     std::vector<float> weights;
     for (const Vec4& start : model.start) weights.push_back(start.w);
     self->weights = arena.add_array(weights);
+    if (!model.thickness_factors.empty()) self->thickness = arena.add_array(model.thickness_factors);
     self->by_face = arena.reserve((std::uint64_t{model.face_stride} + 1) * sizeof(Vec4));
     self->kept = arena.reserve(model.kept_floats() * sizeof(float));
     const std::array none = {0.0f, 1.0f};  // tension and allowed (LimitsIn)

@@ -75,7 +75,8 @@ class ClothState {
 
     std::uint32_t near_slots = 0;  ///< room that lists of near colliders have grown to; 0: not yet
 
-    Slot weights;  ///< current inverse masses, 0 for pinned particles
+    Slot weights;    ///< current inverse masses, 0 for pinned particles
+    Slot thickness;  ///< factors, with those of particles that openings copy; empty: all 1
     Slot by_face, limits;
     Slot kept;                   ///< ClothModel::kept_floats()
     double substep_seconds = 0;  ///< of the last frame, for lambda's scale; 0 before the first frame

@@ -11,7 +11,7 @@ namespace weft::vulkan {
 namespace {
 
 // Sizes of the GLSL layout.
-static_assert(sizeof(FrameIn) == 120 && sizeof(PoseIn) == 64 && sizeof(WindIn) == 176 && sizeof(TargetIn) == 32 &&
+static_assert(sizeof(FrameIn) == 128 && sizeof(PoseIn) == 64 && sizeof(WindIn) == 176 && sizeof(TargetIn) == 32 &&
               sizeof(GrabIn) == 64);
 
 constexpr std::uint64_t report_bytes = WEFT_REPORT_WORDS * sizeof(std::uint32_t);
@@ -52,7 +52,7 @@ float strain_per_lambda(const ClothModel& model, double substep_seconds) {
 }
 
 FrameIn frame_in(const ClothModel& model, const WorldPlan& plan, const StepInput& input, const ClothStep& cloth,
-                 double substep_seconds, bool again, std::uint64_t weights) {
+                 double substep_seconds, bool again, const ParticleAddresses& of_particles) {
     const FrameNumbers numbers = frame_numbers(model, plan, input.dt);
     const AirMaterial& air = model.fabric.air;
     return {.h = numbers.h,
@@ -77,13 +77,14 @@ FrameIn frame_in(const ClothModel& model, const WorldPlan& plan, const StepInput
             .tile_margin = numbers.tile_margin,
             .static_friction = model.fabric.contact.friction[0],
             .kinetic_friction = model.fabric.contact.friction[1],
-            .nearest_of_faces = nearest_of_faces(numbers.half_thickness),
+            .nearest_of_faces = nearest_of_faces(numbers.half_thickness_range[1]),
             .circle_of_faces = circle_of_faces(model),
             .widest_face = widest_face(model),
             .surface_motion = input.surface_motion,
             .meets_surfaces = model.collision.meets_surfaces() ? 1u : 0u,
-            .unused = 0,
-            .weights = weights};
+            .least_half_thickness = numbers.half_thickness_range[0],
+            .weights = of_particles.weights,
+            .thickness = of_particles.thickness};
 }
 
 }  // namespace
@@ -117,10 +118,10 @@ FrameInput::FrameInput(const InputShape& shape) {
 }
 
 void FrameInput::write(const ClothModel& model, const WorldPlan& plan, const StepInput& input, const ClothStep& cloth,
-                       double substep_seconds, bool again, std::uint64_t weights) {
+                       double substep_seconds, bool again, const ParticleAddresses& of_particles) {
     const auto put = [&](std::uint64_t at, const auto& value) { std::memcpy(host_ + at, &value, sizeof value); };
     put(0, std::uint32_t{report_none});
-    put(frame_, frame_in(model, plan, input, cloth, substep_seconds, again, weights));
+    put(frame_, frame_in(model, plan, input, cloth, substep_seconds, again, of_particles));
     for (std::size_t i = 0; i < input.winds.size(); ++i) put(winds_ + i * sizeof(WindIn), wind_in(input.winds[i]));
     for (std::size_t i = 0; i < cloth.motion_poses.size(); ++i)
         put(motion_poses_ + i * sizeof(PoseIn), pose_in(cloth.motion_poses[i]));

@@ -29,6 +29,11 @@ struct InputShape {
 InputShape shape_of(const ClothModel& model, const WorldPlan& plan, const StepInput& input, const ClothStep& cloth);
 
 /// Layout of the inputs in a device buffer of `bytes()`, which the host writes through an upload buffer.
+/// Addresses of arrays on the device, by particle; 0: without.
+struct ParticleAddresses {
+    std::uint64_t weights, thickness;
+};
+
 class FrameInput {
   public:
     FrameInput() = default;
@@ -38,9 +43,9 @@ class FrameInput {
     void attach(std::byte* host, std::uint64_t address) { host_ = host, address_ = address; }
 
     /// The device must have finished the previous frame. `substep_seconds`: that frame's lambda_seconds().
-    /// `again`: second run of a frame, from the same state. `weights`: FrameIn::weights.
+    /// `again`: second run of a frame, from the same state. `of_particles`: as in FrameIn.
     void write(const ClothModel& model, const WorldPlan& plan, const StepInput& input, const ClothStep& cloth,
-               double substep_seconds, bool again, std::uint64_t weights);
+               double substep_seconds, bool again, const ParticleAddresses& of_particles);
 
     std::uint64_t report() const { return address_; }
     std::uint64_t frame() const { return address_ + frame_; }

@@ -335,7 +335,8 @@ Result<std::uint64_t> FrameRun::submit(const StepInput& input, std::span<const C
         const ClothState& cloth = member.cloth->state();
         const bool heavier = work_[i].taut.bytes > 0 || work_[i].steady_parts.bytes > 0;
         buffers_.input(i).write(cloth.model(), plan_, input, *steps[i], cloth.substep_seconds, again,
-                                heavier ? cloth.address(cloth.weights) : 0);
+                                {.weights = heavier ? cloth.address(cloth.weights) : 0,
+                                 .thickness = cloth.thickness.bytes > 0 ? cloth.address(cloth.thickness) : 0});
         seconds_.push_back(lambda_seconds(plan_, input.dt));
     }
     auto value = commands_->submit();

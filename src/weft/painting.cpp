@@ -46,6 +46,8 @@ Result<void> paint_channel(ColorChannel channel, float factor, const PinnedCloth
     return {};
 }
 
+}  // namespace
+
 ClothWeights::Factors& factors_of(ClothWeights& weights, WeightOf of) {
     switch (of) {
         case WeightOf::density:
@@ -53,12 +55,12 @@ ClothWeights::Factors& factors_of(ClothWeights& weights, WeightOf of) {
         case WeightOf::stretch:
             return weights.stretch;
         case WeightOf::bend:
+            return weights.bend;
+        case WeightOf::thickness:
             break;
     }
-    return weights.bend;
+    return weights.thickness;
 }
-
-}  // namespace
 
 template <class Desc>
 Result<void> paint_factors(const Desc& desc, const PinnedCloth& cloth, std::vector<float>& factors,
@@ -95,7 +97,7 @@ Result<ClothWeights> weights_of(std::span<const WeightDesc> weights, const Pinne
             errors.insert(errors.end(), done.errors().begin(), done.errors().end());
     }
     if (!errors.empty()) return errors;
-    for (ClothWeights::Factors* factors : {&result.density, &result.stretch, &result.bend}) {
+    for (ClothWeights::Factors* factors : {&result.density, &result.stretch, &result.bend, &result.thickness}) {
         const std::vector<float>& at_corner = factors->of_particles;
         if (at_corner.empty()) continue;
         factors->of_triangles.reserve(triangles.size());

@@ -50,6 +50,7 @@ TEST(SceneWeights, follow_boxes_vertices_and_groups) {
     SceneDesc scene =
         painted_scene({{.of = WeightOf::density, .factor = 3, .select = BoxPins{{{-1, -1, -1}, {1, 1, 1}}}},
                        {.of = WeightOf::bend, .factor = 5, .select = VertexPins{{7}}},
+                       {.of = WeightOf::thickness, .factor = 6, .select = VertexPins{{9}}},
                        {.of = WeightOf::density, .factor = 2, .select = VertexPins{{4, 5}}, .factors = {0.5f, 4}}});
     const SceneWorld world = open_painted(scene);
     const ClothWeights& weights = *painted_model(world).weights;
@@ -58,6 +59,8 @@ TEST(SceneWeights, follow_boxes_vertices_and_groups) {
     EXPECT_EQ(weights.density.of_particles[5], 8);
     EXPECT_EQ(weights.bend.of_particles[7], 5);
     EXPECT_EQ(weights.bend.of_particles[8], 1);
+    EXPECT_EQ(painted_model(world).thickness_factors[9], 6);
+    EXPECT_EQ(painted_model(world).thickness_factors[8], 1);
     EXPECT_TRUE(weights.stretch.empty());
     scene.cloths[0].weights = {{.of = WeightOf::density, .factor = 3, .select = BoxPins{{{-1, -1, -1}, {1, 1, 1}}}}};
     const double density = double{scene.cloths[0].fabric.body.density};

@@ -37,7 +37,7 @@ struct SheetDesc {
     std::function<float(Vec3 at_rest)> spring = {};  ///< m/N: holds a particle where it starts; 0 for none
     std::function<Vec3(Vec3 at_rest)> shape = {};    ///< bends the sheet at rest
     // Factors on values of the fabric:
-    std::function<float(Vec3 at_rest)> density = {}, stretch = {}, bend = {};
+    std::function<float(Vec3 at_rest)> density = {}, stretch = {}, bend = {}, thickness = {};
     ClothReserve reserve = {};
 };
 
@@ -66,7 +66,8 @@ inline std::shared_ptr<const ClothModel> make_sheet(const SheetDesc& desc) {
                          .fabric = desc.fabric,
                          .weights = {.density = factors_of(desc.density, flat, *topology),
                                      .stretch = factors_of(desc.stretch, flat, *topology),
-                                     .bend = factors_of(desc.bend, flat, *topology)},
+                                     .bend = factors_of(desc.bend, flat, *topology),
+                                     .thickness = factors_of(desc.thickness, flat, *topology)},
                          .collision = {desc.self_collision, desc.filter, desc.layer},
                          .layout = desc.layout,
                          .reserve = desc.reserve};

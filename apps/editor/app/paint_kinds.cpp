@@ -3,6 +3,7 @@
 #include "editor/app/vertex_edits.h"
 #include "scene/check.h"
 #include "solver/model/tear_law.h"
+#include "weft/painting.h"
 
 #include <algorithm>
 #include <cmath>
@@ -158,11 +159,7 @@ std::vector<Edit> prepare_resistance(const PaintTarget& target) {
 
 template <WeightOf of>
 std::vector<float> read_weights(const PaintTarget& target) {
-    const ClothWeights& weights = *target.frame.model->weights;
-    const auto& known = (of == WeightOf::density   ? weights.density
-                         : of == WeightOf::stretch ? weights.stretch
-                                                   : weights.bend)
-                            .of_particles;
+    const std::vector<float>& known = factors_of(*target.frame.model->weights, of).of_particles;
     std::vector<float> values(target.cloth.particles(), 1.0f);
     std::copy_n(known.begin(), std::min(known.size(), values.size()), values.begin());
     return read_factors(target, weights_of(target, of), std::move(values));
@@ -230,6 +227,8 @@ constexpr PaintKind kinds[] = {
     weight_kind<WeightOf::stretch>("stretch", "Stretch",
                                    "factor on the stiffness against stretch and shear; 1 is the fabric", 10),
     weight_kind<WeightOf::bend>("bend", "Bend", "factor on the stiffness against bending; 1 is the fabric", 10),
+    weight_kind<WeightOf::thickness>("thickness", "Thickness", "factor on the thickness in contact; 1 is the fabric",
+                                     3),
     {.name = "group",
      .label = "Group",
      .what = "which vertices a group has",

@@ -50,7 +50,7 @@ void ClothContact::prepare(const Passes& passes, const WorldStep& step, std::spa
         if (model.tiles)
             searched.push_back({model.tiles, cloths_[i]->base, model.rest_of_features(), pair_thickness(model),
                                 slack_per_cap * cap_of(model, 0), model.collision.surface, is_thin(model),
-                                model.collision.filter, seams});
+                                model.collision.filter, seams, uneven_pair_thickness(model)});
     }
     float least_slack = slack_per_cap * cap_of_surface;
     for (const SearchedCloth& cloth : searched) least_slack = std::min(least_slack, cloth.slack);

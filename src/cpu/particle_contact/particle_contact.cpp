@@ -44,7 +44,8 @@ void ParticleContact::prepare(const Passes& passes, const ParticleContactContext
                             .less_at_rest = particle_less_at_rest(model),
                             .with_alike = model.collision.with_cloth == SelfCollision::fast,
                             .filter = model.collision.filter,
-                            .seams = context.seams});
+                            .seams = context.seams,
+                            .uneven = uneven_diameters(model)});
         const std::uint32_t end = cloth->base + model.particle_count;
         particles_.push_back({cloth->base, end});
         const auto& [of_rest, of_motion] = model.fabric.contact.friction;

@@ -63,6 +63,10 @@ WEFT_FN FacePoint choose(mask m, FacePoint yes, FacePoint no)
 WEFT_FN FacePoint nearer(FacePoint one, FacePoint other) { return choose(other.distance < one.distance, other, one); }
 WEFT_FN vec3 center_weights() { return vec3(real(1.0 / 3.0), real(1.0 / 3.0), real(1.0 / 3.0)); }
 
+// m: how near the middle surface of a face may come to a body. Particles stay half a thickness away. With less for faces,
+// those of a fine mesh on a smooth body touch nothing.
+WEFT_FN real nearest_of_faces(real half_thickness) { return real(0.5) * half_thickness; }
+
 // Whether a body may touch a face whose corners it does not: it has edges or corners, or a ball that touches the corners
 // reaches far beyond their plane.
 //   circle  radius of the circle around the face, m

@@ -80,7 +80,8 @@ double stack_distance(const Frame& frame) {
             for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
                 edges.add(distance(cloth.positions[p].xyz(), cloth.positions[q].xyz()));
         edge = std::max(edge, edges.result().mean);
-        thickness = std::max(thickness, double{cloth.model->fabric.contact.thickness});
+        thickness = std::max(thickness,
+                             double{cloth.model->fabric.contact.thickness} * double{cloth.model->thickness_range[1]});
     }
     return 2 * edge + thickness;
 }

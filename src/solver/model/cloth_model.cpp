@@ -224,6 +224,22 @@ Result<void> check_weights(const ClothWeights& weights, std::size_t triangles) {
     return {};
 }
 
+Result<void> set_thickness(ClothModel& model, const std::vector<float>& factors) {
+    if (factors.empty()) return {};
+    if (factors.size() != model.particle_count)
+        return Error{"weights of thickness", "must be one per particle, " + std::to_string(model.particle_count) +
+                                                 ", got " + std::to_string(factors.size())};
+    for (const float factor : factors)
+        if (!(factor > 0 && std::isfinite(factor)))
+            return Error{"weights of thickness", "must be > 0, got " + number_text(factor)};
+    AlignedVector<float> padded(model.capacity(), 1.0f);
+    std::ranges::copy(factors, padded.begin());
+    model.thickness_factors = std::move(padded);
+    const auto [least, most] = std::ranges::minmax(factors);
+    model.thickness_range = {least, most};
+    return {};
+}
+
 // Builds all parts of the model that depend on fabric, weights and pins.
 Result<void> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology& topology, const ClothChange& change,
                      const ColoringOptions& coloring, const ClothReserve& reserve) {
@@ -241,6 +257,7 @@ Result<void> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology
     model.reserve = reserve.particles;
     model.anchor_count = static_cast<std::uint32_t>(pins.attachments.size());
     model.anchor_room = padded(model.anchor_count + spare_anchors);
+    if (auto set = set_thickness(model, change.weights.thickness.of_particles); !set) return set;
 
     RestShape rest = make_rest_shape(mesh, topology);
     lay_out_faces(model, rest);

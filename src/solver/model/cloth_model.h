@@ -118,6 +118,9 @@ struct ClothModel {
     Vec3 start_velocity = {};  ///< m/s, of the particles that are not pinned
     SharedArray<float> mass;   ///< kg, per particle, pinned ones included
     float extent = 0;          ///< m, of the cloth at rest
+    /// Factors on the fabric's thickness, per particle; padded to capacity(). Empty: 1 everywhere.
+    SharedArray<float> thickness_factors;
+    std::array<float, 2> thickness_range = {1, 1};  ///< least and largest of them
 
     std::array<ConstraintTable, constraint_kind_count> constraints;
     SharedArray<CoarseLevel> hierarchy;  ///< finest level first; empty if not requested or of no use

@@ -21,6 +21,8 @@ struct ClothWeights {
     Factors density = {};
     Factors stretch = {};  ///< on the stiffness against stretch, shear and compression
     Factors bend = {};     ///< on the stiffness against bending
+    /// On the thickness; those of particles alone. An edge or a triangle is as thick as at its thinnest corner.
+    Factors thickness = {};
 };
 
 }  // namespace weft

@@ -185,6 +185,11 @@ class Editor {
             if (!pinned || start[sources[i]].w > 0) start[model_->particle_count + i].w = 1 / mass[sources[i]];
             mass.push_back(mass[sources[i]]);
         }
+        if (!model_->thickness_factors.empty()) {
+            AlignedVector<float> factors(model_->thickness_factors.begin(), model_->thickness_factors.end());
+            for (std::size_t i = 0; i < sources.size(); ++i) factors[model_->particle_count + i] = factors[sources[i]];
+            model_->thickness_factors = std::move(factors);
+        }
         model_->start = std::move(start);
         model_->mass = std::move(mass);
         if (!model_->parting) model_->append_vertices(sources);

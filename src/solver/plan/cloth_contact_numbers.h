@@ -1,6 +1,7 @@
 // Numbers of contact between cloths, shared by all backends.
 #pragma once
 
+#include "collide/uneven_thickness.h"
 #include "solver/model/cloth_model.h"
 
 #include <algorithm>
@@ -42,17 +43,28 @@ inline constexpr int contact_most_attempts = 20;
 /// contact_cap() of particles that belong to the surface of a collider, which contact does not move.
 inline constexpr float cap_of_surface = 1e9f;
 
-/// How thick a cloth is in its pairs, m: a pair has the mean of both. Surfaces of colliders have no thickness, so cloth
-/// keeps half of its own from them, as from any collider.
+/// How thick a cloth is in its pairs where its factor is this, m: a pair has the mean of both features, each as thick
+/// as at its thinnest corner. Surfaces of colliders have no thickness, so cloth keeps half of its own from them, as
+/// from any collider.
+inline float pair_thickness(const ClothModel& model, float factor) {
+    if (model.collision.surface) return 0;
+    return std::max(model.fabric.contact.thickness * factor, least_contact_thickness);
+}
+/// Where the cloth is thickest.
 inline float pair_thickness(const ClothModel& model) {
-    return model.collision.surface ? 0 : std::max(model.fabric.contact.thickness, least_contact_thickness);
+    return pair_thickness(model, model.thickness_range[1]);
+}
+/// The same at every particle, if they differ.
+inline UnevenThickness uneven_pair_thickness(const ClothModel& model) {
+    if (model.thickness_factors.empty() || model.collision.surface) return {};
+    return {model.thickness_factors.data(), model.fabric.contact.thickness, least_contact_thickness};
 }
 
 /// Whether the normals of a cloth's pairs are made perpendicular to its features. The closest points of a pair at the
 /// least gap, pair_thickness()/10, are rounded by 6e-8 m near 1 m. Over an edge that tilts the normal by as much as the
 /// gap if thickness² is below 100 · 6e-8 m · edge.
 inline bool is_thin(const ClothModel& model) {
-    const float thickness = pair_thickness(model);
+    const float thickness = pair_thickness(model, model.thickness_range[0]);
     return !model.collision.surface && thickness * thickness < 6e-6f * model.mean_edge;
 }
 

@@ -19,16 +19,18 @@ constexpr double no_speed_cap = 1e18;
 
 FrameNumbers frame_numbers(const ClothModel& model, const WorldPlan& plan, double dt) {
     const double h = dt / plan.substeps;
-    const double reach = std::max(model.fabric.contact.thickness, model.mean_edge);
+    const float half_thickness = 0.5f * model.fabric.contact.thickness;
+    const std::array range{half_thickness * model.thickness_range[0], half_thickness * model.thickness_range[1]};
+    const double reach = std::max(2 * range[1], model.mean_edge);
     return {.h = static_cast<float>(h),
             .max_speed = static_cast<float>(
                 model.collision.surface ? no_speed_cap : std::min(capped_edges_per_substep * reach / h, no_speed_cap)),
             .viscous = std::max(static_cast<float>(model.fabric.body.damping * dt), 1e-30f),
-            .half_thickness = 0.5f * model.fabric.contact.thickness,
+            .half_thickness = half_thickness,
+            .half_thickness_range = range,
             .depenetration = depenetration_speed * static_cast<float>(h),
             .hand_reach = hand_reach_in_edges * model.mean_edge,
-            .tile_margin = 0.5f * model.fabric.contact.thickness + model.mean_edge +
-                           (has_face_contact(plan) ? widest_face(model) : 0)};
+            .tile_margin = range[1] + model.mean_edge + (has_face_contact(plan) ? widest_face(model) : 0)};
 }
 
 std::array<float, 2> friction_between(const ClothModel& model, const Collider& collider) {
@@ -37,7 +39,7 @@ std::array<float, 2> friction_between(const ClothModel& model, const Collider& c
 }
 
 bool faces_touch(const ClothModel& model, const Collider& collider) {
-    const float half_thickness = 0.5f * model.fabric.contact.thickness;
+    const float half_thickness = 0.5f * model.fabric.contact.thickness * model.thickness_range[0];
     return shape_acts_on(collider, model) &&
            scalar::reaches_faces(roundness_of(collider), half_thickness, nearest_of_faces(half_thickness),
                                  circle_of_faces(model));

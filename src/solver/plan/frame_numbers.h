@@ -14,13 +14,14 @@ inline constexpr float depenetration_speed = 1.0f;
 inline constexpr float tile_slack_per_way = 0.25f;
 
 struct FrameNumbers {
-    float h;               ///< s: length of a substep
-    float max_speed;       ///< m/s
-    float viscous;         ///< s²: retardation time times length of the frame
-    float half_thickness;  ///< m
-    float depenetration;   ///< m per substep
-    float hand_reach;      ///< m: GrabRow::reach
-    float tile_margin;     ///< m: a tile's colliders are searched this far around it, for contact and constraints
+    float h;                                    ///< s: length of a substep
+    float max_speed;                            ///< m/s
+    float viscous;                              ///< s²: retardation time times length of the frame
+    float half_thickness;                       ///< m, of the fabric
+    std::array<float, 2> half_thickness_range;  ///< m: where the cloth is thinnest and thickest
+    float depenetration;                        ///< m per substep
+    float hand_reach;                           ///< m: GrabRow::reach
+    float tile_margin;  ///< m: a tile's colliders are searched this far around it, for contact and constraints
 };
 
 FrameNumbers frame_numbers(const ClothModel& model, const WorldPlan& plan, double dt);
@@ -28,8 +29,7 @@ FrameNumbers frame_numbers(const ClothModel& model, const WorldPlan& plan, doubl
 /// Static and kinetic friction between a cloth and a collider.
 std::array<float, 2> friction_between(const ClothModel& model, const Collider& collider);
 
-/// m: how near the middle surface of a face may come to a collider. Particles stay half a thickness away. With less for
-/// faces, those of a fine mesh on a smooth collider touch nothing.
+/// The same as in physics/contact/face.kernel.h.
 inline float nearest_of_faces(float half_thickness) {
     return 0.5f * half_thickness;
 }

@@ -1,6 +1,7 @@
 // Numbers of contact between particles, shared by all backends.
 #pragma once
 
+#include "collide/uneven_thickness.h"
 #include "solver/model/cloth_model.h"
 
 #include <algorithm>
@@ -31,9 +32,20 @@ inline constexpr std::array<ParticleSweep, 4> particle_sweeps{{
     {.deep = 0.8f, .recovery_speed = 4, .split = 0.6f},
 }};
 
-/// m. Where the fabric's thickness asks for more, that wins.
+/// m, of a particle with this factor on the fabric's thickness; a pair has the mean of both. Where the thickness asks
+/// for more than the edges, that wins.
+inline float particle_diameter(const ClothModel& model, float factor) {
+    return std::max(particle_diameter_in_edges * model.mean_edge, model.fabric.contact.thickness * factor);
+}
+/// Of the largest particle.
 inline float particle_diameter(const ClothModel& model) {
-    return std::max(particle_diameter_in_edges * model.mean_edge, model.fabric.contact.thickness);
+    return particle_diameter(model, model.thickness_range[1]);
+}
+/// The same of every particle, if they differ.
+inline UnevenThickness uneven_diameters(const ClothModel& model) {
+    if (model.thickness_factors.empty()) return {};
+    return {model.thickness_factors.data(), model.fabric.contact.thickness,
+            particle_diameter_in_edges * model.mean_edge};
 }
 /// m, see particle_part_at_rest.
 inline float particle_less_at_rest(const ClothModel& model) {

@@ -16,7 +16,7 @@ std::shared_ptr<const Seams> World::seams_of(std::span<const std::uint32_t> clot
     for (const std::uint32_t place : cloths) {
         const ClothModel& model = *cloths_[place].model;
         if (model.collision.with_cloth == SelfCollision::off) continue;
-        const float thickness = std::max(model.fabric.contact.thickness, least_contact_thickness);
+        const float thickness = pair_thickness(model);
         seamed.push_back({.rest = model.start.data(),
                           .base = cloths_[place].base,
                           .count = model.particle_count,

@@ -66,7 +66,7 @@ struct ContactTileIn {
     uint edges;
     uint triangles;
     uint cloth;
-    float thickness;  // m
+    float thickness;  // m, where the cloth is thickest
     float static_friction;
     float kinetic_friction;
     uint groups;  // CollisionFilter
@@ -156,6 +156,7 @@ struct ContactData {
     Vec4s reached;  // where the constraints left the particles
     Vec4s asked;    // before the limit
     Vec4s rest;     // w: how far pushes may move the particle if no surface moves, m
+    Floats thickness;  // m, by particle; null if that of no cloth varies
     Uints share;  // sums of weights, in quanta
     Uints sums;   // in quanta: four per particle
     Uints scaled_sums;

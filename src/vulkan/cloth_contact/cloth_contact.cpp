@@ -72,6 +72,7 @@ float slack_of(const ClothModel& model) {
 struct FrameArrays {
     TileArrays tiles;
     std::vector<Vec4> rest;               // by particle of the world; w: of cap_of()
+    std::vector<float> thickness;         // m, by particle of the world; empty if all cloths are even
     std::vector<std::uint32_t> carrier;   // by particle: the surface to which it belongs, counted from 1; 0: none
     std::vector<std::uint64_t> carriers;  // poses of the surfaces
     std::vector<std::uint64_t> reports;
@@ -79,6 +80,7 @@ struct FrameArrays {
     std::uint64_t end = 0;               // of the particles of the world that shaders ask for
     std::uint64_t frame = 0;             // address of the inputs of any of the cloths
     float most_slack = 0, thickest = 0;  // m: of all tiles, of all cloths
+    bool uneven = false;                 // whether the thickness of any cloth is
 
     explicit FrameArrays(std::span<const ClothContact::Member> members) {
         float least_slack = cap_of_surface;
@@ -89,6 +91,7 @@ struct FrameArrays {
             if (members[m].cloth->model().tiles) add_tiles(members[m], m, least_slack);
         }
         rest.resize(end);
+        if (uneven) thickness.resize(end);
         carrier.resize(end);
         for (const ClothContact::Member& member : members)
             if (member.cloth->model().tiles) add_particles(member);
@@ -102,6 +105,7 @@ struct FrameArrays {
         for (const Tile& tile : *model.tiles) tiles.add(tile, model, number, cloth.base(), slack);
         most_slack = std::max(most_slack, slack);
         thickest = std::max(thickest, pair_thickness(model));
+        uneven = uneven || uneven_pair_thickness(model);
         frame = member.frame;
         particles += model.particle_count;
         end = std::max(end, std::uint64_t{cloth.base()} + model.capacity());
@@ -111,6 +115,9 @@ struct FrameArrays {
         Vec4* const mine = &rest[member.cloth->base()];
         std::copy_n(model.rest_of_features(), model.particle_count, mine);
         for (std::uint32_t p = 0; p < model.particle_count; ++p) mine[p].w = cap_of(model);
+        for (std::uint32_t p = 0; uneven && p < model.particle_count; ++p)
+            thickness[member.cloth->base() + p] =
+                pair_thickness(model, model.thickness_factors.empty() ? 1 : model.thickness_factors[p]);
         if (member.poses == 0) return;
         carriers.push_back(member.poses);
         std::fill_n(&carrier[member.cloth->base()], model.particle_count, static_cast<std::uint32_t>(carriers.size()));
@@ -142,6 +149,7 @@ void reserve_by_particle(Arena& arena, const FrameArrays& arrays, AddressedSlots
     slots.add(&ContactData::reached, arena.reserve(end * sizeof(Vec4)));
     slots.add(&ContactData::asked, arena.reserve(end * sizeof(Vec4)));
     slots.add(&ContactData::rest, arena.add_array(arrays.rest));
+    if (arrays.uneven) slots.add(&ContactData::thickness, arena.add_array(arrays.thickness));
     slots.add(&ContactData::share, arena.reserve(end * word_bytes));
     slots.add(&ContactData::sums, arena.reserve(4 * end * word_bytes));
     slots.add(&ContactData::scaled_sums, arena.reserve(4 * end * word_bytes));

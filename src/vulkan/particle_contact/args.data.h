@@ -29,7 +29,7 @@ struct SphereTileIn {
     uint with_alike;  // SearchedParticles
     uint groups;      // CollisionFilter
     uint collides_with;
-    float diameter;   // m
+    float diameter;   // m, of the largest particle
     float margin;     // m
     float less_at_rest;
 };
@@ -58,7 +58,7 @@ struct SphereData {
     Uints pushes;    // by particle: number of overlaps
     Uints sums;      // four per particle, in quanta
     Uints particles; // by place in a tile: in the world
-    Vec4s rest;      // by place in a tile
+    Vec4s rest;      // by place in a tile; w: diameter, m
     Vec4s listed;    // by place in a tile: where the lists were made
     Vec4s boxes;     // two per tile: low and high corner, where the lists were made
     SphereTileRef tiles;

@@ -39,7 +39,9 @@ struct SphereArrays {
             for (std::uint32_t i = begin; i < begin + WEFT_PARTICLE_TILE; ++i) {
                 const std::uint32_t p = order[std::min(i, size - 1)];
                 particles.push_back(base + p);
-                rest.push_back(model.start[p]);
+                const float factor = model.thickness_factors.empty() ? 1 : model.thickness_factors[p];
+                const Vec4 x = model.start[p];
+                rest.push_back({x.x, x.y, x.z, particle_diameter(model, factor)});
             }
         }
         const auto& [of_rest, of_motion] = model.fabric.contact.friction;

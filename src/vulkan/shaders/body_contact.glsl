@@ -13,11 +13,12 @@ struct NearBody {
     vec3 local, local_at_start, normal;
     float gap, way;
 };
-NearBody near_body(uint slot, vec3 x, vec3 start)
+NearBody near_body(uint slot, uint p, vec3 x, vec3 start)
 {
     NearBody near;
     near.collider = contact_args.at.colliders.at.colliders.at[contact_args.at.slots.at[slot]];
-    near.body = body_of(contact_args.at.colliders, near.collider, contact_args.at.frame, contact_substep());
+    near.body = body_of(contact_args.at.colliders, near.collider, contact_args.at.frame, contact_substep(),
+                        half_thickness_at(contact_args.at.frame, p));
     near.solid = solid_of(near.collider);
     near.local = to_body(near.body, x);
     near.local_at_start = to_body_at_start(near.body, start);
@@ -32,13 +33,14 @@ Support find_support(uint p, vec3 x, uvec2 slots)
 {
     Support support = no_support();
     FrameRef frame = contact_args.at.frame;
+    float half_thickness = half_thickness_at(frame, p);
     // At the start of the substep: prediction has added what gravity gives.
     vec3 velocity = contact_args.at.velocity.at[p].xyz - gravity_of(frame) * frame.at.h;
     for (uint slot = slots.x; slot < slots.y; ++slot) {
         if (holds_body(slot)) continue;
         uint number = contact_args.at.slots.at[slot];
         ColliderIn collider = contact_args.at.colliders.at.colliders.at[number];
-        ContactBody body = body_of(contact_args.at.colliders, collider, contact_args.at.frame, contact_substep());
+        ContactBody body = body_of(contact_args.at.colliders, collider, frame, contact_substep(), half_thickness);
         vec3 local = to_body(body, x), normal;
         float gap = solid_distance(solid_of(collider), local, normal) - body.half_thickness;
         vec3 world_normal = rotate(body.rx, body.ry, body.rz, normal), carried = carried_by(body, local);
@@ -71,7 +73,7 @@ void run_count_touches(uint p)
     else store_support(p, support);
     for (uint slot = slots.x; slot < slots.y; ++slot) {
         if (!holds_body(slot)) continue;
-        NearBody near = near_body(slot, x.xyz, start);
+        NearBody near = near_body(slot, p, x.xyz, start);
         float inside = inside_support(support, near, x.xyz);
         if (!may_touch(near.gap + inside, none, near.way, near.solid, near.body)) continue;
         ContactPlane plane =
@@ -84,7 +86,7 @@ void run_count_touches(uint p)
 // Contact with the body of one slot. Returns whether faces of the particle may touch.
 bool touch_body_of(uint slot, uint p, inout vec4 x, vec3 start, inout Support support)
 {
-    NearBody near = near_body(slot, x.xyz, start);
+    NearBody near = near_body(slot, p, x.xyz, start);
     uint at = place_in_slot(slot, p), body = near.collider.body;
     ContactSum sum = ContactSum(vec3(0.0), 0.0);
     if (contact_args.at.first_iteration == 0u) {

@@ -23,14 +23,14 @@ PoseIn pose_in_substep(CollidersRef world, ColliderIn collider, uint substep, bo
     return pose_after(world, collider, at_end ? substep + 1u : substep);
 }
 
-// The collider as a particle of the cloth meets it in a substep.
-ContactBody body_of(CollidersRef world, ColliderIn collider, FrameRef frame, uint substep)
+// The collider as a place of the cloth, with this half of its thickness, meets it in a substep.
+ContactBody body_of(CollidersRef world, ColliderIn collider, FrameRef frame, uint substep, float half_thickness)
 {
     PoseIn now = pose_in_substep(world, collider, substep, true);
     PoseIn before = pose_in_substep(world, collider, substep, false);
     return ContactBody(now.x.xyz, now.y.xyz, now.z.xyz, now.position.xyz, before.x.xyz, before.y.xyz, before.z.xyz,
                        before.position.xyz, sqrt(frame.at.static_friction * collider.static_friction),
-                       sqrt(frame.at.kinetic_friction * collider.kinetic_friction), frame.at.half_thickness,
+                       sqrt(frame.at.kinetic_friction * collider.kinetic_friction), half_thickness,
                        frame.at.depenetration);
 }
 

@@ -3,6 +3,7 @@
 #define WEFT_CONTACT_GLSL
 
 #include "vulkan/shaders/collider_lists.glsl"
+#include "vulkan/shaders/thickness.glsl"
 
 uint contact_substep() { return contact_args.at.substep + substeps_before; }
 
@@ -31,13 +32,20 @@ void trace(uint at, bool touches, vec3 before, vec4 x, vec3 position, uint p)
     contact_args.at.contact_log.at[turned] = vec4(sum.turned, 0.0);
 }
 
+// Whether faces may touch a collider of this roundness where their corners do not: faces_touch().
+bool cloth_reaches_faces(FrameRef frame, float roundness)
+{
+    float least = frame.at.least_half_thickness;
+    return reaches_faces(roundness, least, nearest_of_faces(least), frame.at.circle_of_faces);
+}
+
 // Whether faces of a particle may touch the collider, or contact has moved it.
 bool marks_faces(Solid solid, ContactBody body, float gap, float way, vec3 moved)
 {
     if (dot(moved, moved) > 0.0) return true;
-    float nearest = contact_args.at.frame.at.nearest_of_faces;
-    return reaches_faces(solid.roundness, body.half_thickness, nearest, contact_args.at.frame.at.circle_of_faces) &&
-           faces_may_touch(solid, gap + body.half_thickness, way, nearest, contact_args.at.frame.at.widest_face);
+    FrameRef frame = contact_args.at.frame;
+    return cloth_reaches_faces(frame, solid.roundness) &&
+           faces_may_touch(solid, gap + body.half_thickness, way, frame.at.nearest_of_faces, frame.at.widest_face);
 }
 
 // What lies behind a particle that bodies may press on a collider (support.kernel.h).
@@ -85,7 +93,8 @@ bool meet_collider(uint slot, uint p, inout vec4 x, vec3 start, Support support)
 {
     ColliderIn collider = contact_args.at.colliders.at.colliders.at[contact_args.at.slots.at[slot]];
     if (is_body(collider)) return false;  // touch_bodies
-    ContactBody body = body_of(contact_args.at.colliders, collider, contact_args.at.frame, contact_substep());
+    ContactBody body = body_of(contact_args.at.colliders, collider, contact_args.at.frame, contact_substep(),
+                               half_thickness_at(contact_args.at.frame, p));
     bool keeps = !is_none(uvec2(contact_args.at.sums)), traces = !is_none(uvec2(contact_args.at.contact_log));
     uint at = place_in_slot(slot, p);
     ContactSum sum = ContactSum(vec3(0.0), 0.0);

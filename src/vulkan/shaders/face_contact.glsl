@@ -7,7 +7,6 @@
 #include "vulkan/shaders/sums_of_bodies.glsl"
 
 uint face_substep() { return face_contact_args.at.substep + substeps_before; }
-float nearest_of_faces() { return face_contact_args.at.frame.at.nearest_of_faces; }
 bool meets_bodies() { return !is_none(uvec2(face_contact_args.at.colliders.at.bodies)); }
 bool logs_faces() { return !is_none(uvec2(face_contact_args.at.contact_log)); }
 
@@ -83,8 +82,7 @@ FacePoints points_of_face(uvec3 corner)
 
 bool reaches(ColliderIn collider)
 {
-    return reaches_faces(collider.roundness, face_contact_args.at.frame.at.half_thickness, nearest_of_faces(),
-                         face_contact_args.at.frame.at.circle_of_faces);
+    return cloth_reaches_faces(face_contact_args.at.frame, collider.roundness);
 }
 
 // Returns a contact that does not touch if the face is far away.
@@ -97,7 +95,8 @@ FaceContact contact_of(ColliderIn collider, ContactBody body, FacePoints face, f
     FacePoint center = face_point(solid, local, center_weights());
     FaceContact none = FaceContact(false, false, center.weights, center.normal, vec3(0.0), 0.0, 0.0, 1.0, 0.0);
     if (!face_may_touch(local_at_start, local, center, solid, nearest)) return none;
-    return face_contact(solid, local_at_start, local, center, nearest_of_faces(), body.half_thickness, deepest);
+    return face_contact(solid, local_at_start, local, center, nearest_of_faces(body.half_thickness), body.half_thickness,
+                        deepest);
 }
 
 // Whether a face of the cloth touches on its way, in a word after the sums.
@@ -120,12 +119,14 @@ void run_find_faces(uint f)
         face_contact_args.at.contacts.at[place_of_contact(slot, f, tile) + 4u].w = 0.0;
     if (!any_marked(corner, WEFT_NEAR_FACES)) return;
     FacePoints face = points_of_face(corner);
+    float half_thickness = half_thickness_of_face(face_contact_args.at.frame, corner);
     for (uint slot = slots.x; slot < slots.y; ++slot) {
         uint place = place_of_contact(slot, f, tile);
         ColliderIn collider = face_contact_args.at.colliders.at.colliders.at[face_contact_args.at.slots.at[slot]];
         if (!reaches(collider)) continue;
-        ContactBody body = body_of(face_contact_args.at.colliders, collider, face_contact_args.at.frame, face_substep());
-        FaceContact contact = contact_of(collider, body, face, nearest_of_faces(), -body.half_thickness);
+        ContactBody body = body_of(face_contact_args.at.colliders, collider, face_contact_args.at.frame, face_substep(),
+                                   half_thickness);
+        FaceContact contact = contact_of(collider, body, face, nearest_of_faces(half_thickness), -body.half_thickness);
         if (!touches_beside_corners(contact)) continue;
         store_contact(place, face_row(body, contact, face.x, face.start, to_body(body, face.x)));
         if (is_body(collider) && feels_cloth(face_contact_args.at.colliders.at.bodies, collider.body))
@@ -178,9 +179,10 @@ void run_push_faces(uint f)
         vec3 a, b, c, by;
         if (face_contact_args.at.sweep == WEFT_FACE_SWEEPS) {
             vec3 gaps = face_contact_args.at.contacts.at[place + 5u].xyz;
-            by = vec3(face_retreat(row, point, face.x.a, gaps.x, nearest_of_faces()),
-                      face_retreat(row, point, face.x.b, gaps.y, nearest_of_faces()),
-                      face_retreat(row, point, face.x.c, gaps.z, nearest_of_faces()));
+            float nearest = nearest_of_faces(half_thickness_of_face(face_contact_args.at.frame, corner));
+            by = vec3(face_retreat(row, point, face.x.a, gaps.x, nearest),
+                      face_retreat(row, point, face.x.b, gaps.y, nearest),
+                      face_retreat(row, point, face.x.c, gaps.z, nearest));
             a = row.normal * by.x;
             b = row.normal * by.y;
             c = row.normal * by.z;
@@ -289,14 +291,17 @@ void run_hold_faces(uint f)
     if (!any_marked(corner, WEFT_SWEPT_FACES)) return;
     uint tile = tile_of_face(corner);
     FacePoints face = points_of_face(corner);
+    float half_thickness = half_thickness_of_face(face_contact_args.at.frame, corner);
     uvec2 slots = slots_near(face_contact_args.at.tiles, tile * WEFT_COLLIDER_TILE);
     for (uint slot = slots.x; slot < slots.y; ++slot) {
         uint number = face_contact_args.at.slots.at[slot];
         ColliderIn collider = face_contact_args.at.colliders.at.colliders.at[number];
         if (!reaches(collider)) continue;
-        ContactBody body = body_of(face_contact_args.at.colliders, collider, face_contact_args.at.frame, face_substep());
-        FaceContact contact = contact_of(collider, body, face, 0.0, least_after_pushes(nearest_of_faces()));
-        if (!has_passed(contact, nearest_of_faces())) continue;
+        ContactBody body = body_of(face_contact_args.at.colliders, collider, face_contact_args.at.frame, face_substep(),
+                                   half_thickness);
+        float nearest = nearest_of_faces(half_thickness);
+        FaceContact contact = contact_of(collider, body, face, 0.0, least_after_pushes(nearest));
+        if (!has_passed(contact, nearest)) continue;
         uint part = face_contact_args.at.sweep > 0u ? 0u : uint(floor(contact.time * float(WEFT_HOLD_PARTS)));
         uint mark = (uint(WEFT_HOLD_PARTS) - part + 1u) * WEFT_HOLD_COLLIDERS + number % WEFT_HOLD_COLLIDERS;
         hold_corner(corner.x, mark);
@@ -316,7 +321,7 @@ void run_settle_faces(uint p)
     uint number = mark % WEFT_HOLD_COLLIDERS;
     float part = float(uint(WEFT_HOLD_PARTS) - (mark / WEFT_HOLD_COLLIDERS - 1u)) / float(WEFT_HOLD_PARTS);
     ColliderIn collider = face_contact_args.at.colliders.at.colliders.at[number];
-    ContactBody body = body_of(face_contact_args.at.colliders, collider, face_contact_args.at.frame, face_substep());
+    ContactBody body = body_of(face_contact_args.at.colliders, collider, face_contact_args.at.frame, face_substep(), 0.0);
     vec3 place = held_place(body, to_body_at_start(body, face_contact_args.at.start.at[p].xyz), to_body(body, x.xyz), part);
     note_push(p, number, place - x.xyz, x.xyz - body.position, x);
     store_point(face_contact_args.at.position, p, vec4(place, x.w));

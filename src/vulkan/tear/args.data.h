@@ -57,6 +57,7 @@ struct TearData {
     Vec4s velocity;
     Vec4s compensation;
     Floats weights;      // 1/kg
+    Floats thickness;    // factors; null: all 1
     Floats mass;         // kg
     Uints vertex;        // per particle
     Floats strayed;      // per vertex

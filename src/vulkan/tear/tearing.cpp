@@ -149,6 +149,7 @@ Result<void> Tearing::add(const ClothState& cloth, std::size_t member, const std
     data.position = cloth.address(PointArray::position), data.start = cloth.address(PointArray::start);
     data.velocity = cloth.address(PointArray::velocity), data.compensation = cloth.address(PointArray::compensation);
     data.weights = cloth.address(cloth.weights);
+    if (cloth.thickness.bytes > 0) data.thickness = cloth.address(cloth.thickness);
     data.stride = model.face_stride;
     data.block_count = static_cast<std::uint32_t>(model.table(ConstraintKind::stretch).blocks.size());
     data.halves = table.half_stride;

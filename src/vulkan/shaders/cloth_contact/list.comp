@@ -66,6 +66,15 @@ float thickness_of_tiles()
     return 0.5 * (contact.tiles.at[tile_of[0]].thickness + contact.tiles.at[tile_of[1]].thickness);
 }
 
+// A feature is as thick as its thinnest corner.
+float thickness_of_pair(bool edges, uvec4 p)
+{
+    if (is_none(uvec2(contact.thickness))) return thickness_of_tiles();
+    float x = contact.thickness.at[p.x], y = contact.thickness.at[p.y], z = contact.thickness.at[p.z],
+          w = contact.thickness.at[p.w];
+    return edges ? 0.5 * (min(x, y) + min(z, w)) : 0.5 * (x + min(y, min(z, w)));
+}
+
 float through(uint p, uint q) { return seam_distance(contact.seam_first, contact.seam_entries, p, q); }
 
 float distance_through_seam(bool edges, uvec4 p)
@@ -89,7 +98,7 @@ void add_pair(bool edges, uint one, uint first, uint second)
     vec4 x2 = edges ? now[1u - one][b.x] : now[1u - one][b.y], x3 = edges ? now[1u - one][b.y] : now[1u - one][b.z];
     float distance = pair_distance(edges, x0.xyz, x1.xyz, x2.xyz, x3.xyz);
     float away = edges ? max(x0.w, x1.w) + max(x2.w, x3.w) : x0.w + max(x1.w, max(x2.w, x3.w));
-    float least = distance - away - add, thickness = thickness_of_tiles();
+    float least = distance - away - add, thickness = thickness_of_pair(edges, p);
     if (!(least < thickness)) return;
     // Neighbors on one cloth keep at most half of their distance at rest, or a thickness above the edge length would
     // push them apart. Features that coincide at rest have no side, so they are left out.

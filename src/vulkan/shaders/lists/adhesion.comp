@@ -3,6 +3,7 @@
 // particle (WEFT_FINDS), or a constraint for each pair.
 #extension GL_GOOGLE_include_directive : require
 #include "vulkan/shaders/lists/list.glsl"
+#include "vulkan/shaders/thickness.glsl"
 
 void main()
 {
@@ -18,7 +19,7 @@ void main()
 #endif
     vec4 x = list.position.at[p];
     uint colliders = list.members.at[member].frame.at.colliders;
-    float half_thickness = list.members.at[member].frame.at.half_thickness;
+    float half_thickness = half_thickness_at(list.members.at[member].frame, p - list.members.at[member].base);
     for (uint c = 0u; c < colliders; ++c) {
         ColliderIn collider = list.members.at[member].colliders.at.colliders.at[c];
         if ((collider.flags & WEFT_COLLIDER_STICKS) == 0u || !shape_acts(collider, list.members.at[member].frame)) continue;

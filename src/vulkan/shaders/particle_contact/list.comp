@@ -34,9 +34,9 @@ void list_pair(uint one, uint two, uint i, uint j, SphereTileIn a, SphereTileIn 
     uint slot = two * WEFT_PARTICLE_TILE + j;
     vec4 x = spheres.listed.at[slot];
     vec3 between = place[i].xyz - x.xyz;
-    float diameter = 0.5 * (a.diameter + b.diameter);
+    vec4 y = spheres.rest.at[slot];
+    float diameter = 0.5 * (rest[i].w + y.w);
     if (a.cloth == b.cloth) {
-        vec4 y = spheres.rest.at[slot];
         vec3 apart = rest[i].xyz - y.xyz;
         diameter = diameter_of_pair(diameter, sqrt(dot(apart, apart)), spheres.part_at_rest, a.less_at_rest);
     }

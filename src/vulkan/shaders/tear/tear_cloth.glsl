@@ -84,6 +84,7 @@ uint tear_add_copy(TearCloth c, uint from)
     tear_data.velocity.at[copy] = tear_data.velocity.at[from];
     tear_data.compensation.at[copy] = tear_data.compensation.at[from];
     tear_data.weights.at[copy] = tear_data.weights.at[from];
+    if (!is_none(uvec2(tear_data.thickness))) tear_data.thickness.at[copy] = tear_data.thickness.at[from];
     return copy;
 }
 float tear_face_mass(TearCloth c, uint triangle) { return tear_data.face_mass.at[triangle]; }
