@@ -163,6 +163,13 @@ class WEFT_API Simulation {
     /// its room, which is at least eight more than it was built with. Coarse levels and tethers follow some frames
     /// later, in the same frame on every run.
     Result<void> set_pins(ClothId id, std::vector<PinDesc> pins);
+    /// Replaces all weights of the cloth, from the next step on. A box selects by the positions at the start. The model
+    /// is rebuilt. A place that becomes heavier, stiffer or thicker does so at once; cloth that then overlaps is pushed
+    /// apart at 1 m/s at most.
+    Result<void> set_weights(ClothId id, std::vector<WeightDesc> weights);
+    /// Replaces the resistance of all particles, from the next step on. A box selects by the positions at the start.
+    /// Fails unless the cloth's tearing is `split` or `erode`.
+    Result<void> set_resistance(ClothId id, std::vector<ResistanceDesc> resistance);
     /// Opens edges of the cloth along a path or a plane, before the next frame; CutDesc::time is ignored. Particles on
     /// the cut are doubled, so surface() may have more vertices afterwards, appended to those of the mesh. The cloth
     /// needs a tearing other than `off`. The open edges are part of save_state(), not of save_scene(). Fails if the cut

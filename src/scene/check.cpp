@@ -365,13 +365,25 @@ void check_painted(const Desc& desc, std::span<const Parameter> keys, const std:
     }
 }
 
-void check_weights(const std::vector<WeightDesc>& weights, const std::optional<MadeMesh>& made,
-                   const std::string& pointer, Problems& problems) {
+}  // namespace
+
+void check_weights(const std::vector<WeightDesc>& weights, const MeshDesc& mesh, const std::string& pointer,
+                   Problems& problems) {
+    const auto made = made_mesh(mesh);
     for (std::size_t i = 0; i < weights.size(); ++i) {
         check_values(weight_keys, &weights[i], at(pointer, i), problems);
         check_painted(weights[i], weight_factor_keys, made, at(pointer, i), problems);
     }
 }
+
+void check_resistance(const std::vector<ResistanceDesc>& resistance, const MeshDesc& mesh, const std::string& pointer,
+                      Problems& problems) {
+    const auto made = made_mesh(mesh);
+    for (std::size_t i = 0; i < resistance.size(); ++i)
+        check_painted(resistance[i], resistance_factor_keys, made, at(pointer, i), problems);
+}
+
+namespace {
 
 void check_groups(const std::vector<VertexGroup>& groups, const std::optional<MadeMesh>& made,
                   const std::string& pointer, Problems& problems) {
@@ -386,8 +398,7 @@ void check_groups(const std::vector<VertexGroup>& groups, const std::optional<Ma
     check_names(groups, pointer, problems);
 }
 
-void check_tearing(const SceneCloth& cloth, const std::optional<MadeMesh>& made, const std::string& pointer,
-                   Problems& problems) {
+void check_tearing(const SceneCloth& cloth, const MeshDesc& mesh, const std::string& pointer, Problems& problems) {
     const auto needs = [&](bool has, std::string_view key, bool able, const char* what) {
         if (has && !able) problems.add(at(pointer, key), "needs \"tearing\": " + std::string(what) + " in this cloth");
     };
@@ -400,8 +411,7 @@ void check_tearing(const SceneCloth& cloth, const std::optional<MadeMesh>& made,
         check_path(cloth.seams[i].along, place, problems);
     }
     needs(!cloth.seams.empty(), "seams", split, "\"split\"");
-    for (std::size_t i = 0; i < cloth.resistance.size(); ++i)
-        check_painted(cloth.resistance[i], resistance_factor_keys, made, at(at(pointer, "resistance"), i), problems);
+    check_resistance(cloth.resistance, mesh, at(pointer, "resistance"), problems);
     needs(!cloth.resistance.empty(), "resistance", split || erode, "\"split\" or \"erode\"");
 }
 
@@ -437,10 +447,11 @@ void check_cloth(const SceneCloth& cloth, const std::string& pointer, Problems& 
                      "needs \"bend_model\": \"dihedral\" or \"distance\" for \"no-diagonals\"");
     // If a mesh has errors, its number of particles is unknown.
     const bool sound = !problems.concern(at(pointer, "mesh"));
-    check_groups(cloth.groups, sound ? made_mesh(cloth.mesh) : std::nullopt, at(pointer, "groups"), problems);
-    check_pins(cloth.pins, sound ? cloth.mesh : MeshDesc(MeshFileDesc()), at(pointer, "pins"), problems);
-    check_weights(cloth.weights, sound ? made_mesh(cloth.mesh) : std::nullopt, at(pointer, "weights"), problems);
-    check_tearing(cloth, sound ? made_mesh(cloth.mesh) : std::nullopt, pointer, problems);
+    const MeshDesc unknown = MeshFileDesc(), &mesh = sound ? cloth.mesh : unknown;
+    check_groups(cloth.groups, made_mesh(mesh), at(pointer, "groups"), problems);
+    check_pins(cloth.pins, mesh, at(pointer, "pins"), problems);
+    check_weights(cloth.weights, mesh, at(pointer, "weights"), problems);
+    check_tearing(cloth, mesh, pointer, problems);
     check_material(cloth.material, at(pointer, "material"), problems);
 }
 

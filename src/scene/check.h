@@ -40,6 +40,10 @@ void check_solver(const SolverDesc& solver, const std::string& pointer, Problems
 void check_air(const AirDesc& air, const std::string& pointer, Problems& problems);
 void check_cloth(const SceneCloth& cloth, const std::string& pointer, Problems& problems);
 void check_pins(const std::vector<PinDesc>& pins, const MeshDesc& mesh, const std::string& pointer, Problems& problems);
+void check_weights(const std::vector<WeightDesc>& weights, const MeshDesc& mesh, const std::string& pointer,
+                   Problems& problems);
+void check_resistance(const std::vector<ResistanceDesc>& resistance, const MeshDesc& mesh, const std::string& pointer,
+                      Problems& problems);
 void check_cut(const CutDesc& cut, const std::string& pointer, Problems& problems);
 /// Colliders that pins name must be among `names`, which are those of `colliders`, and must not be bodies.
 void check_attachments(const std::vector<PinDesc>& pins, std::span<const std::string_view> names,

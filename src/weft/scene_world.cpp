@@ -351,6 +351,20 @@ Result<void> SceneWorld::set_pins(ClothId id, std::vector<PinDesc> pins) {
                         std::move(particles));
 }
 
+Result<void> SceneWorld::set_weights(ClothId id, std::vector<WeightDesc> weights) {
+    const std::size_t place = place_of(id);
+    SceneCloth cloth = without_meshes(scene_.cloths[place]);
+    cloth.weights = std::move(weights);
+    return change_cloth(id, std::move(cloth), sources_[place].pins, world_->kinematic_targets(id), world_->pinned(id));
+}
+
+Result<void> SceneWorld::set_resistance(ClothId id, std::vector<ResistanceDesc> resistance) {
+    const std::size_t place = place_of(id);
+    SceneCloth cloth = without_meshes(scene_.cloths[place]);
+    cloth.resistance = std::move(resistance);
+    return change_resistance(place, cloth, "");
+}
+
 // Changes the pins without a new model. Returns false and changes nothing if the model has no room for the springs.
 Result<bool> SceneWorld::target_at_once(std::size_t place, const Pinned& pinned) {
     const ClothId id = world_->cloth_id(place);

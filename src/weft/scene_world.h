@@ -62,6 +62,10 @@ class SceneWorld {
     /// Particles are pinned at their current positions; boxes select by current positions. Changes only the particles
     /// concerned if neither old nor new pins have a compliance. Coarse levels and tethers follow some frames later.
     Result<void> set_pins(ClothId id, std::vector<PinDesc> pins);
+    /// Positions and velocities are kept. Boxes select by the positions at the start. The model is rebuilt.
+    Result<void> set_weights(ClothId id, std::vector<WeightDesc> weights);
+    /// Likewise, without a rebuild. The cloth must tear or erode.
+    Result<void> set_resistance(ClothId id, std::vector<ResistanceDesc> resistance);
     /// Cuts the cloth now. Positions are those of `positions`. Not part of the document; part of the saved state.
     Result<void> cut(ClothId id, const CutDesc& cut, CutPositions positions);
     /// Pulls a point of the simulated mesh (World::grab). Not part of the document; part of the saved state.

@@ -254,6 +254,30 @@ Result<void> Simulation::set_pins(ClothId id, std::vector<PinDesc> pins) {
     return done;
 }
 
+Result<void> Simulation::set_weights(ClothId id, std::vector<WeightDesc> weights) {
+    if (!impl_->world().contains(id)) return no_such("cloth");
+    const auto sound =
+        checked([&](Problems& problems) { check_weights(weights, MeshFileDesc(), "/weights", problems); });
+    if (!sound) return sound;
+    auto done = impl_->scene.set_weights(id, std::move(weights));
+    impl_->changed();
+    return done;
+}
+
+Result<void> Simulation::set_resistance(ClothId id, std::vector<ResistanceDesc> resistance) {
+    if (!impl_->world().contains(id)) return no_such("cloth");
+    const Tearing tearing = impl_->scene.scene().cloths[place_of(impl_->world(), id)].tearing;
+    const auto sound = checked([&](Problems& problems) {
+        check_resistance(resistance, MeshFileDesc(), "/resistance", problems);
+        if (tearing != Tearing::split && tearing != Tearing::erode)
+            problems.add("/resistance", "needs a cloth with the tearing `split` or `erode`");
+    });
+    if (!sound) return sound;
+    auto done = impl_->scene.set_resistance(id, std::move(resistance));
+    impl_->changed();
+    return done;
+}
+
 Result<void> Simulation::cut(ClothId id, const CutDesc& cut, CutPositions positions) {
     if (!impl_->world().contains(id)) return no_such("cloth");
     CutDesc now = cut;

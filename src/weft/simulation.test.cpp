@@ -234,7 +234,8 @@ TEST(Simulation, knows_no_id_that_has_been_removed) {
     EXPECT_NE(other, cloth);
     for (const auto& result :
          {simulation.remove(cloth), simulation.remove(ball), simulation.set_fabric(cloth, {}),
-          simulation.set_pins(cloth, {}), simulation.move(ball, {}), simulation.set_friction(ball, 1, 1)})
+          simulation.set_pins(cloth, {}), simulation.set_weights(cloth, {}), simulation.set_resistance(cloth, {}),
+          simulation.move(ball, {}), simulation.set_friction(ball, 1, 1)})
         EXPECT_FALSE(result.ok());
     EXPECT_TRUE(simulation.surface(cloth).positions.empty());
     EXPECT_TRUE(simulation.tangents(cloth).empty());
@@ -273,6 +274,47 @@ TEST(Simulation, changes_while_it_runs) {
     EXPECT_FALSE(simulation.set_pins(cloth, {{.select = BoxPins{{{8, 8, 8}, {9, 9, 9}}}}}).ok());
     simulation.step();
     EXPECT_EQ(simulation.surface(cloth).positions[80], before);
+}
+
+// The same simulation goes on as one that had these weights and this resistance from the start would from this state.
+TEST(Simulation, changes_weights_and_resistance_while_it_runs) {
+    const std::vector<WeightDesc> weights{{.of = WeightOf::density, .factor = 5, .select = VertexPins{{60, 61}}},
+                                          {.of = WeightOf::thickness, .factor = 3, .select = VertexPins{{40}}}};
+    const std::vector<ResistanceDesc> resistance{{.factor = 0.5f, .select = VertexPins{{20, 21}}}};
+    const auto make = [&](bool from_start) {
+        Simulation simulation = make_simulation();
+        ClothDesc desc = small_sheet({0, 1, 0});
+        desc.pins = {{.select = VertexPins{{0, 8}}}};
+        desc.tearing = Tearing::split;
+        if (from_start) desc.weights = weights, desc.resistance = resistance;
+        EXPECT_TRUE(simulation.add(desc).ok());
+        return simulation;
+    };
+    Simulation changed = make(false);
+    const ClothId cloth = changed.cloths()[0];
+    for (int i = 0; i < 20; ++i) changed.step();
+    const Vec3 before = changed.surface(cloth).positions[80];
+    ASSERT_TRUE(changed.set_weights(cloth, weights).ok());
+    ASSERT_TRUE(changed.set_resistance(cloth, resistance).ok());
+    EXPECT_EQ(changed.surface(cloth).positions[80], before);
+    Simulation built = make(true);
+    ASSERT_TRUE(built.restore_state(changed.save_state()).ok());
+    for (int i = 0; i < 20; ++i) changed.step(), built.step();
+    EXPECT_EQ(changed.state_hash(), built.state_hash());
+    // What cannot be is an error, and changes nothing.
+    EXPECT_EQ(changed.set_weights(cloth, {{.factor = -1, .select = VertexPins{{1}}}}).errors()[0].where,
+              "/weights/0/factor");
+    EXPECT_EQ(changed.set_weights(cloth, {{.factor = 2, .select = VertexPins{{99}}}}).errors()[0].where,
+              "/weights/0/vertices/0");
+    EXPECT_EQ(changed.set_resistance(cloth, {{.select = VertexPins{{1}}, .factors = {1, 2}}}).errors()[0].where,
+              "/resistance/0/factors");
+    EXPECT_EQ(changed.set_resistance(cloth, {{.factor = 2, .select = VertexPins{{99}}}}).errors()[0].where,
+              "/resistance/0/vertices/0");
+    changed.step(), built.step();
+    EXPECT_EQ(changed.state_hash(), built.state_hash());
+    Simulation whole = make_simulation();
+    const ClothId other = *whole.add(small_sheet());
+    EXPECT_EQ(whole.set_resistance(other, resistance).errors()[0].where, "/resistance");
 }
 
 TEST(Simulation, carries_cloth_that_is_attached_to_a_collider) {

@@ -354,7 +354,7 @@ TEST(SceneFile, NamesWhatIsMissingOrTooMuch) {
         {cloth(R"("tearing": "split", "resistance": [{"vertices": [0, 1], "factors": [1]}])"),
          {"s.json: /cloths/0/resistance/0/factors: must hold a number per vertex, 2, got 1"}},
         {cloth(R"("weights": [{"of": "mass", "vertices": [0]}, {"vertices": [0]}])"),
-         {R"(s.json: /cloths/0/weights/0/of: must be "density", "stretch" or "bend", got "mass")",
+         {R"(s.json: /cloths/0/weights/0/of: must be "density", "stretch", "bend" or "thickness", got "mass")",
           "s.json: /cloths/0/weights/1/of: is missing"}},
         {cloth(
              R"("weights": [{"of": "bend", "vertices": [0, 1], "factors": [1]}, {"of": "bend", "factor": 0, "vertices": [0]}])"),
