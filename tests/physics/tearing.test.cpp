@@ -122,6 +122,17 @@ TEST(Tearing, of_a_hanging_strip_begins_at_its_strength) {
     }
 }
 
+// Cloth far weaker than its cuts parts at four times its strength, whatever their ends would bear.
+TEST(Tearing, is_not_stopped_by_the_ends_of_cuts_that_hold) {
+    Fabric fabric = rubber();
+    fabric.tear.strength[0] = fabric.tear.strength[1] = 20;
+    fabric.tear.tear_energy = 1e5f;
+    const auto model = make_strip(
+        {.size = {0.5f, 1}, .resolution = {17, 33}, .fabric = fabric, .pinned = [](Vec3 x) { return x.y > 0.499f; }});
+    const World world = hang(model, 4, 1, 40);
+    EXPECT_GT(pieces_of(*world.frame().cloths[0].model), 1u) << "load " << load_of(world);
+}
+
 // Unsolved stretch reads as load, so stiff cloth tears too early with few substeps.
 TEST(Tearing, of_cotton_begins_nearer_to_its_strength_with_more_substeps) {
     double before = 0;

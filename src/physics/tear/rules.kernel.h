@@ -15,6 +15,8 @@
 #define WEFT_TEAR_END_ANGLE 4.71338898
 // Openings of a cloth in a substep. More of them wait for the next substep.
 #define WEFT_TEAR_MOST_OPENINGS 64u
+// The end of a cut that does not open keeps cloth beside it closed up to this load.
+#define WEFT_TEAR_MOST_HELD 4.0
 // A rip goes on along an edge that leads forward by at least this part of its length.
 #define WEFT_TEAR_FORWARD 0.35
 
@@ -169,7 +171,7 @@ WEFT_FN bool tear_is_hot(TearCloth c, uint t, real part)
 }
 
 // Whether the load of another particle keeps this one closed. A rip does not start beside the end of another one. A pinned
-// end has no load: it never opens, so cloth beside it must.
+// end has no load: it never opens, so cloth beside it must. An end that does not open holds cloth up to a load.
 WEFT_FN bool tear_yields(TearCloth c, uint particle, TearLoad at, uint other)
 {
     bool yields = false;
@@ -178,7 +180,7 @@ WEFT_FN bool tear_yields(TearCloth c, uint particle, TearLoad at, uint other)
         if (there.end == at.end) {
             yields = there.load > at.load || (there.load == at.load && other < particle);
         } else {
-            yields = there.end && there.load > real(0);
+            yields = there.end && (there.load >= real(1) || (there.load > real(0) && at.load < real(WEFT_TEAR_MOST_HELD)));
         }
     }
     return yields;
