@@ -57,6 +57,14 @@ void number_features(TileState& tile) {
     number_features(tile.tile->triangle, tile.tile->triangle_count, tile, tile.triangles);
 }
 
+// m, of the thickest vertex.
+float thickness_of(const Tile& tile, const SearchedCloth& cloth) {
+    if (!cloth.uneven) return cloth.thickness;
+    float most = 0;
+    for (std::uint32_t i = 0; i < tile.vertex_count; ++i) most = std::max(most, cloth.uneven.at(tile.particle[i]));
+    return most;
+}
+
 }  // namespace
 
 void PairList::reserve(std::uint32_t pairs) {
@@ -94,6 +102,7 @@ void PairSearch::set_cloths(const SearchLoops& loops, std::vector<SearchedCloth>
     tiles_.resize(count);
     pairs_.resize(count);
     near_.assign(count, {});
+    thickness_.resize(count);
     outdated_.assign(count, 0);
     for (auto& array : bounds_) array.assign(count + 16, 1e9f);
     std::size_t at = 0;
@@ -101,6 +110,7 @@ void PairSearch::set_cloths(const SearchLoops& loops, std::vector<SearchedCloth>
         thickest_ = std::max(thickest_, cloths_[c].thickness);
         most_slack_ = std::max(most_slack_, cloths_[c].slack);
         for (const Tile& tile : *cloths_[c].tiles) {
+            thickness_[at] = thickness_of(tile, cloths_[c]);
             TileState& state = tiles_[at++];
             state.tile = &tile;
             state.cloth = c;
@@ -300,8 +310,9 @@ void PairSearch::bound_tiles(const LedTeam& team) {
 void PairSearch::find_near_tiles() {
     const auto count = static_cast<std::uint32_t>(tiles_.size());
     for (auto& list : near_) list.clear();
-    const float apart = thickest_ + 2 * most_slack_, half_time = 0.5f * longest_lifetime;
+    const float half_time = 0.5f * longest_lifetime;
     const auto is_near = [&](std::uint32_t a, std::uint32_t b) {
+        const float apart = 0.5f * (thickness_[a] + thickness_[b]) + 2 * most_slack_;
         bool near = true;
         for (int k = 0; k < 3; ++k) {
             const float shift = (bounds_[6 + k][b] - bounds_[6 + k][a]) * half_time;
@@ -326,6 +337,7 @@ void PairSearch::find_near_tiles() {
     for (std::uint32_t a = 0; a < count; ++a) {
         if (!outdated_[a]) continue;
         ++searched_;
+        const float apart = 0.5f * (thickness_[a] + thickest_) + 2 * most_slack_;
         const float window =
             bounds_[3 + axis][a] + largest + apart + 2 * half_time * (fastest + std::fabs(bounds_[6 + axis][a]));
         for (auto b = std::ranges::lower_bound(sorted_, center(a) - window, {}, center);
@@ -354,7 +366,8 @@ int PairSearch::sort_tiles() {
     return axis;
 }
 
-TileReach PairSearch::reach(const TileState& a, const TileState& b, TilePairs::Block& block) const {
+TileReach PairSearch::reach(std::uint32_t tile_a, std::uint32_t tile_b, TilePairs::Block& block) const {
+    const TileState &a = tiles_[tile_a], &b = tiles_[tile_b];
     const SearchedCloth &of_a = cloths_[a.cloth], &of_b = cloths_[b.cloth];
     const float slack_both = a.slack + b.slack;
     const std::int64_t full = std::min<std::int64_t>({longest_lifetime, remaining(a), remaining(b)});
@@ -367,7 +380,7 @@ TileReach PairSearch::reach(const TileState& a, const TileState& b, TilePairs::B
     block.middle = {0.5f * static_cast<float>(ticks), a.middle, b.middle};
     const Vec3 moved = relative * static_cast<float>(ticks);
     TileReach reach;
-    reach.thickness = 0.5f * (of_a.thickness + of_b.thickness);
+    reach.thickness = 0.5f * (thickness_[tile_a] + thickness_[tile_b]);
     reach.add = slack_both + 0.5f * length_of(moved);
     const std::array<float, 3> parts{moved.x, moved.y, moved.z};
     for (int k = 0; k < 3; ++k) {
@@ -375,7 +388,7 @@ TileReach PairSearch::reach(const TileState& a, const TileState& b, TilePairs::B
         reach.widen[k] = reach.thickness + slack_both + std::fabs(reach.shift[k]);
     }
     if (a.cloth == b.cloth) reach.rest = of_a.rest;
-    reach.thickest = {of_a.thickness, of_b.thickness};
+    reach.of_cloths = {of_a.thickness, of_b.thickness};
     reach.uneven = {of_a.uneven, of_b.uneven};
     return reach;
 }
@@ -419,7 +432,7 @@ void PairSearch::apply_seams(int kind, PairList& list, std::uint32_t begin) cons
 void PairSearch::list_block(std::uint32_t a, std::uint32_t b, Workspace& workspace) const {
     TilePairs& row = workspace.fresh;
     TilePairs::Block block{.other = b, .listed = tick_};
-    const TileReach how = reach(tiles_[a], tiles_[b], block);
+    const TileReach how = reach(a, b, block);
     for (int kind = 0; kind < 2; ++kind) block.begin[kind] = row.lists[kind].count;
     loops_->list_pairs(tiles_[a], tiles_[b], how, workspace.scratch, row.lists);
     if (cloths_[tiles_[a].cloth].seams)

@@ -120,7 +120,7 @@ struct TileReach {
     float add = 0;               ///< m: pairs whose distance is at most this more than their thickness are listed
     float thickness = 0;         ///< m: of the thickest pair
     const Vec4* rest = nullptr;  ///< by particle of the cloth, if both tiles belong to one cloth
-    std::array<float, 2> thickest = {};          ///< m: SearchedCloth::thickness of both
+    std::array<float, 2> of_cloths = {};         ///< m: SearchedCloth::thickness of both
     std::array<UnevenThickness, 2> uneven = {};  ///< of both
     bool is_uneven() const { return uneven[0] || uneven[1]; }
 };
@@ -228,7 +228,7 @@ class PairSearch {
     }
     int sort_tiles();
     float approach(const TileState& a, const TileState& b, const TilePairs::Block& block) const;
-    TileReach reach(const TileState& a, const TileState& b, TilePairs::Block& block) const;
+    TileReach reach(std::uint32_t tile_a, std::uint32_t tile_b, TilePairs::Block& block) const;
     void find_rows();
     bool is_old(std::uint32_t a, const TilePairs::Block& block) const;
     struct Workspace {
@@ -252,6 +252,7 @@ class PairSearch {
     std::vector<std::vector<std::uint32_t>> near_;  // by tile: tiles of higher numbers to list it with
     std::int64_t tick_ = 0;
     std::uint64_t searched_ = 0;
+    std::vector<float> thickness_;  // m, by tile: of its thickest vertex
     float thickest_ = 0, most_slack_ = 0;
     std::vector<std::uint32_t> rows_;                     // tiles of which pairs are to be listed
     std::vector<std::uint32_t> to_gather_;                // tiles whose features that needs

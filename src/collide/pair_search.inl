@@ -258,7 +258,7 @@ WEFT_FN void find_thickness(const TileReach& reach, std::size_t first, SearchScr
     scratch.thickness.resize(std::max(scratch.thickness.size(), scratch.far.size()));
     if (!reach.is_uneven()) return void(std::fill_n(&scratch.thickness[0], scratch.count, reach.thickness));
     const auto of_side = [&](std::size_t tile, int begin, int end, std::uint32_t i) {
-        float thickness = reach.thickest[tile];
+        float thickness = reach.of_cloths[tile];
         if (!reach.uneven[tile]) return thickness;
         for (int c = begin; c < end; ++c)
             thickness = std::min(thickness, reach.uneven[tile].at(scratch.particle[static_cast<std::size_t>(c)][i]));

@@ -101,6 +101,7 @@ void ParticleSearch::set_cloths(const ParticleSearchLoops& loops, std::vector<Se
                 const Vec4 x = cloth.rest[p];
                 listed.particle[i] = cloth.base + p;
                 listed.diameter[i] = cloth.uneven ? cloth.uneven.at(p) : cloth.diameter;
+                listed.largest = std::max(listed.largest, listed.diameter[i]);
                 listed.rest[0][i] = x.x, listed.rest[1][i] = x.y, listed.rest[2][i] = x.z;
                 extend(listed.rest_box, {x.x, x.y, x.z, 0});
             }
@@ -207,7 +208,7 @@ void ParticleSearch::group_tiles() {
 void ParticleSearch::group_boxes() {
     for (std::uint32_t t = 0; t < tiles_.size(); ++t) {
         const SearchedParticles& cloth = cloths_[tiles_[t].cloth];
-        const float half = 0.505f * (cloth.diameter + cloth.margin);
+        const float half = 0.505f * (listed_[t].largest + cloth.margin);
         ParticleBox& box = grouped_.boxes[grouped_.place[t]];
         box = tiles_[t].reach;
         for (int k = 0; k < 3; ++k) box.low[k] -= half, box.high[k] += half;
@@ -283,7 +284,7 @@ ParticleSearch::Block ParticleSearch::list_block(std::uint32_t tile, std::uint32
     const ListedTile &a = listed_[tile], &b = listed_[other];
     const SearchedParticles &of_a = cloths_[tiles_[tile].cloth], &of_b = cloths_[tiles_[other].cloth];
     Block block{.other = other, .begin = pairs.count, .shift = motions_[other].moved - motions_[tile].moved};
-    const float margin = 0.5f * (of_a.margin + of_b.margin), diameter = 0.5f * (of_a.diameter + of_b.diameter);
+    const float margin = 0.5f * (of_a.margin + of_b.margin), diameter = 0.5f * (a.largest + b.largest);
     const float rounding = rounding_of_margin * margin + rounding_of_place * (largest_coordinate(tiles_[tile].now) +
                                                                               largest_coordinate(tiles_[other].now));
     const float gap = gap_between(a.box, b.box, block.shift);

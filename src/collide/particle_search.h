@@ -70,6 +70,7 @@ struct ListedTile {
     alignas(cache_line) Axes place, rest;                             ///< m
     std::array<std::uint32_t, particle_tile> particle{};              ///< in the world
     alignas(cache_line) std::array<float, particle_tile> diameter{};  ///< m
+    float largest = 0;                                                ///< m: of the diameters
     ParticleBox box, rest_box;
 };
 

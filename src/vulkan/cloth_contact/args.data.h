@@ -66,7 +66,7 @@ struct ContactTileIn {
     uint edges;
     uint triangles;
     uint cloth;
-    float thickness;  // m, where the cloth is thickest
+    float thickness;  // m, of its thickest vertex
     float static_friction;
     float kinetic_friction;
     uint groups;  // CollisionFilter

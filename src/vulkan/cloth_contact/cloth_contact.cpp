@@ -31,6 +31,15 @@ static_assert(WEFT_LIMIT_SLIDES == limit_slides && WEFT_LIMIT_HALVINGS == limit_
 // Part of the slack of lists by which contact may move particles. The rest is for the motion of the following substeps.
 constexpr float contact_part_of_slack = 0.7f;
 
+// m, of the thickest vertex.
+float thickness_of(const Tile& tile, const ClothModel& model) {
+    if (model.thickness_factors.empty()) return pair_thickness(model);
+    float factor = 0;
+    for (std::uint32_t i = 0; i < tile.vertex_count; ++i)
+        factor = std::max(factor, model.thickness_factors[tile.particle[i]]);
+    return pair_thickness(model, factor);
+}
+
 // The tiles of all cloths, as the shaders read them.
 struct TileArrays {
     std::vector<ContactTileIn> tiles;
@@ -44,7 +53,7 @@ struct TileArrays {
              .edges = tile.edge_count,
              .triangles = tile.triangle_count,
              .cloth = cloth,
-             .thickness = pair_thickness(model),
+             .thickness = thickness_of(tile, model),
              .static_friction = material.friction[0],
              .kinetic_friction = material.friction[1],
              .groups = model.collision.filter.groups,

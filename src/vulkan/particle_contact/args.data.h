@@ -29,7 +29,7 @@ struct SphereTileIn {
     uint with_alike;  // SearchedParticles
     uint groups;      // CollisionFilter
     uint collides_with;
-    float diameter;   // m, of the largest particle
+    float diameter;   // m, of its largest particle
     float margin;     // m
     float less_at_rest;
 };

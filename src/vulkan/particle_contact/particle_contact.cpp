@@ -33,15 +33,17 @@ struct SphereArrays {
                              .with_alike = model.collision.with_cloth == SelfCollision::fast,
                              .groups = model.collision.filter.groups,
                              .collides_with = model.collision.filter.mask,
-                             .diameter = particle_diameter(model),
+                             .diameter = 0,
                              .margin = particle_margin(model),
                              .less_at_rest = particle_less_at_rest(model)});
+            float& largest = tiles.back().diameter = 0;
             for (std::uint32_t i = begin; i < begin + WEFT_PARTICLE_TILE; ++i) {
                 const std::uint32_t p = order[std::min(i, size - 1)];
                 particles.push_back(base + p);
                 const float factor = model.thickness_factors.empty() ? 1 : model.thickness_factors[p];
                 const Vec4 x = model.start[p];
                 rest.push_back({x.x, x.y, x.z, particle_diameter(model, factor)});
+                largest = std::max(largest, rest.back().w);
             }
         }
         const auto& [of_rest, of_motion] = model.fabric.contact.friction;

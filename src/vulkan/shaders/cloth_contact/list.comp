@@ -61,6 +61,7 @@ void cull(uint side, uint which, uint kind, float sign)
     }
 }
 
+// m: of the thickest pair.
 float thickness_of_tiles()
 {
     return 0.5 * (contact.tiles.at[tile_of[0]].thickness + contact.tiles.at[tile_of[1]].thickness);

@@ -230,7 +230,8 @@ void run_pair_tiles(uint a)
             uint b = (first + k) * WEFT_TILES_TOGETHER + me();
             if (me() >= WEFT_TILES_TOGETHER || b >= contact.tile_count) continue;
             if (b < a && contact.tracked.at[b].outdated == 1u) continue;
-            if (!can_meet(a, b) || !are_near(a, b, apart)) continue;
+            float less = 0.5 * (contact.thickest - contact.tiles.at[b].thickness);
+            if (!can_meet(a, b) || !are_near(a, b, apart - less)) continue;
             uint at = atomicAdd(head.tile_pairs, 1u);
             if (at >= contact.tile_pair_capacity) continue;
             contact.tile_pairs.at[2u * at] = min(a, b);
