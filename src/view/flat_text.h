@@ -1,8 +1,10 @@
 // Text as triangles.
 #pragma once
 
+#include "base/image.h"
 #include "render/drawing.h"
 
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -21,5 +23,8 @@ void draw_rectangle(float left, float top, float right, float bottom, Vec4 color
 /// From `first` at its left side to `last` at its right.
 void draw_gradient(float left, float top, float right, float bottom, Vec4 first, Vec4 last,
                    std::vector<render::FlatVertex>& flat);
+
+/// Draws triangles onto an opaque sRGB image. What lies outside it is left out.
+void draw_onto(Image8& image, std::span<const render::FlatVertex> flat);
 
 }  // namespace weft

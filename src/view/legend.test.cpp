@@ -161,5 +161,54 @@ TEST(ColorScale, stays_within_its_ends) {
     }
 }
 
+Image8 gray(std::uint32_t width, std::uint32_t height) {
+    Image8 image{width, height, std::vector<std::uint8_t>(std::size_t{4} * width * height, 128)};
+    return image;
+}
+
+// Each pixel once, also on the diagonal between both triangles of a rectangle, and none outside.
+TEST(FlatTriangles, are_drawn_onto_images) {
+    Image8 image = gray(20, 12);
+    std::vector<FlatVertex> flat;
+    draw_rectangle(3, 2, 15, 9, {1, 0, 0, 0.5f}, flat);
+    draw_onto(image, flat);
+    for (std::uint32_t y = 0; y < image.height; ++y) {
+        for (std::uint32_t x = 0; x < image.width; ++x) {
+            const bool inside = x >= 3 && x < 15 && y >= 2 && y < 9;
+            EXPECT_EQ(image.at(x, y)[0], inside ? 192 : 128) << x << ' ' << y;
+            EXPECT_EQ(image.at(x, y)[1], inside ? 64 : 128) << x << ' ' << y;
+        }
+    }
+    // A gradient from side to side, and what lies partly outside.
+    flat.clear();
+    draw_gradient(-10, -5, 30, 40, {0, 0, 0, 1}, {1, 1, 1, 1}, flat);
+    draw_onto(image, flat);
+    EXPECT_NEAR(image.at(0, 0)[0], 255 * 10.5 / 40, 1);
+    EXPECT_NEAR(image.at(19, 11)[2], 255 * 29.5 / 40, 1);
+    Image8 empty;
+    draw_onto(empty, flat);
+    flat.pop_back();
+    draw_onto(image, flat);  // two corners are no triangle
+}
+
+TEST(Legends, are_drawn_onto_images) {
+    Image8 image = gray(640, 360);
+    std::vector<FlatVertex> flat;
+    const Legend legend{.title = "strain, %", .bar = Legend::Bar{-1, 1, ColorScale::balance}};
+    draw_legends(std::span(&legend, 1), image.width, image.height, flat);
+    draw_onto(image, flat);
+    EXPECT_LT(image.at(20, 350)[0], 100) << "backdrop";
+    EXPECT_EQ(image.at(500, 100)[0], 128);
+    bool blue = false, red = false;
+    for (std::uint32_t x = 0; x < 200; ++x) {
+        for (std::uint32_t y = 300; y < 360; ++y) {
+            const std::uint8_t* c = image.at(x, y);
+            blue = blue || c[2] > c[0] + 100;
+            red = red || c[0] > c[2] + 100;
+        }
+    }
+    EXPECT_TRUE(blue && red);
+}
+
 }  // namespace
 }  // namespace weft

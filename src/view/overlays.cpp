@@ -50,7 +50,7 @@ OverlayOutput draw_overlays(std::span<const Overlay* const> chosen, const Overla
                 std::remove_if(output.legends.begin(), end, [](const Legend& l) { return l.of_scalars; }), end);
         }
     }
-    draw_legends(output.legends, input.width, input.height, output.flat);
+    if (input.legends) draw_legends(output.legends, input.width, input.height, output.flat);
     return output;
 }
 

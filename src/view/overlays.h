@@ -23,6 +23,7 @@ struct OverlayInput {
     FieldSurfaces& fields;                     ///< kept from image to image
     float size = 1;                            ///< m: radius of the scene, for the length of arrows
     std::uint32_t width = 1280, height = 720;  ///< pixels of the image
+    bool legends = true;                       ///< draw them into the image
 };
 
 /// A value per drawn vertex of one cloth.
@@ -47,7 +48,7 @@ struct OverlayOutput {
     std::vector<render::FlatVertex> flat;
     std::vector<Scalars> scalars;            ///< one per cloth, or none
     std::vector<ColliderScalars> colliders;  ///< at most one per collider, in their order
-    std::vector<Legend> legends;             ///< draw_overlays() draws them
+    std::vector<Legend> legends;
 };
 
 /// What World must record for an overlay (WorldSettings).
@@ -64,7 +65,7 @@ std::span<const Overlay> overlays();
 /// The error suggests the most similar name.
 Result<const Overlay*> find_overlay(std::string_view name);
 
-/// Runs the overlays in order, and draws their legends into the lower left corner.
+/// Runs the overlays in order, and draws their legends into the lower left corner if the input says so.
 OverlayOutput draw_overlays(std::span<const Overlay* const> chosen, const OverlayInput& input);
 
 }  // namespace weft

@@ -413,8 +413,13 @@ Result<void> SceneView::Impl::bring(const SceneDesc& scene, const WorldFrame& wo
 }
 
 Result<void> SceneView::Impl::draw_overlays(const WorldFrame& world, const Frame& frame) {
-    shown = weft::draw_overlays(
-        overlays, {.world = world, .frame = frame, .fields = fields, .size = size, .width = width, .height = height});
+    shown = weft::draw_overlays(overlays, {.world = world,
+                                           .frame = frame,
+                                           .fields = fields,
+                                           .size = size,
+                                           .width = width,
+                                           .height = height,
+                                           .legends = options.legends});
     for (std::size_t i = 0; i < world.cloth_count() && i < shown.scalars.size(); ++i) {
         auto done = show(shown.scalars[i], *find_at(cloths, world.cloth_id(i), i), objects[i]);
         if (!done) return done;
@@ -487,6 +492,10 @@ Result<SceneView> SceneView::create(std::shared_ptr<gpu::Device> device, const S
 Camera SceneView::camera(const SceneDesc& scene, const WorldFrame& world) const {
     if (scene.camera) return *scene.camera;
     return framing(subject_of(world).all, impl_->options.aspect());
+}
+
+const std::vector<Legend>& SceneView::legends() const {
+    return impl_->shown.legends;
 }
 
 const std::vector<std::string>& SceneView::notes() const {

@@ -27,6 +27,7 @@ struct ViewOptions {
     bool two_passes = false;                   ///< render/drawing.h
     bool draft = false;                        ///< RendererOptions::draft
     std::vector<std::string> overlays;         ///< names of view/overlays.h
+    bool legends = true;                       ///< draw those of overlays into the image
 
     float aspect() const { return static_cast<float>(width) / static_cast<float>(height); }
 };
@@ -93,6 +94,8 @@ class SceneView {
     void set_hidden(std::vector<std::string> names);
     /// Replaces the overlays.
     void set_overlays(std::vector<const Overlay*> overlays);
+    /// Of the overlays of the last image.
+    const std::vector<Legend>& legends() const;
     /// Null: none. Does nothing if the cloth does not exist or has another number of particles.
     void set_paint(std::shared_ptr<const ClothPaint> paint);
     /// One line per problem that was worked around: maps that cannot be read.

@@ -4,6 +4,7 @@
 #include "editor/app/popups.h"
 #include "editor/app/scene_files.h"
 #include "editor/app/timeline_bar.h"
+#include "editor/app/view_legends.h"
 #include "editor/ui/widgets/controls.h"
 #include "editor/ui/widgets/panels.h"
 #include "view/framing.h"
@@ -366,9 +367,10 @@ void Editor::view(Ui& ui) {
     Vec2 image_size{};
     if (view_image_ && !view_image_->image.rgba.empty())
         image_size = {static_cast<float>(view_image_->image.width), static_cast<float>(view_image_->image.height)};
-    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 corner = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
     view_.has_keys = panel_ == Panel::none && !file_dialog_.is_open();
     view_.show(ui, *session_, marks_, image_, image_size);
+    if (view_image_) show_legends(ui, ImRect(corner, corner + room), view_image_->legends);
     ImGui::SetCursorScreenPos(ImVec2(corner.x + ui.theme().px(10), corner.y + ui.theme().px(8)));
     view_overlay(ui);
 }

@@ -3,6 +3,7 @@
 #include "editor/app/objects.h"
 #include "editor/app/scene_files.h"
 #include "io/images/picture_writer.h"
+#include "view/flat_text.h"
 
 #include <weft/files.h>
 
@@ -326,7 +327,10 @@ void Editor::screenshot() {
     std::error_code ignored;
     for (int i = 1; file.empty() || std::filesystem::exists(file, ignored); ++i)
         file = folder / ("weft-" + std::to_string(i) + ".png");
-    const Image8& image = view_image_->image;
+    Image8 image = view_image_->image;
+    std::vector<render::FlatVertex> legends;
+    draw_legends(view_image_->legends, image.width, image.height, legends);
+    draw_onto(image, legends);
     auto writer = make_picture_writer(file);
     Result<void> written = writer ? (*writer)->begin({.width = image.width, .height = image.height, .picture_count = 1})
                                   : Result<void>(writer.errors());

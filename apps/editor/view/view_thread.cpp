@@ -115,8 +115,9 @@ class Views {
         if (!view) {
             const ViewSources sources{
                 .surface = {}, .read_picture = pictures_beside(folder_), .read_light = lights_beside(folder_)};
-            auto made = SceneView::create(device_, *request.scene, *request.world,
-                                          {.samples = samples_, .draft = quality.draft, .overlays = {}}, sources);
+            auto made = SceneView::create(
+                device_, *request.scene, *request.world,
+                {.samples = samples_, .draft = quality.draft, .overlays = {}, .legends = false}, sources);
             if (!made) return made.errors();
             view.emplace(std::move(*made));
         }
@@ -132,6 +133,7 @@ class Views {
         return image;
     }
     const std::vector<std::string>& notes(const Quality& quality) const { return views_[quality.draft]->notes(); }
+    const std::vector<Legend>& legends(const Quality& quality) const { return views_[quality.draft]->legends(); }
 
   private:
     std::shared_ptr<gpu::Device> device_;
@@ -201,6 +203,7 @@ Result<void> ViewThread::Impl::draw(const ViewRequest& request, bool best, ViewI
         if (!views->began()) best ? quality.best_took(result.ms) : quality.took(result.ms);
         result.image = std::move(*made);
         result.notes = views->notes(with);
+        result.legends = views->legends(with);
         return {};
     } catch (const std::exception& error) {
         return Error{"view", error.what()};

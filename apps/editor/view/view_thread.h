@@ -44,6 +44,7 @@ struct ViewImage {
     unsigned percent = 100;               ///< size of the drawn image relative to the request; it was enlarged
     bool draft = false;                   ///< render::RendererOptions::draft
     std::uint64_t number = 0;             ///< of the request, as request() has returned it
+    std::vector<Legend> legends = {};     ///< of the overlays; they are not in the image
     std::vector<std::string> notes = {};  ///< what was worked around (SceneView::notes)
     Errors errors = {};                   ///< why drawing failed; then nothing is drawn until retry()
 };
