@@ -57,14 +57,6 @@ void number_features(TileState& tile) {
     number_features(tile.tile->triangle, tile.tile->triangle_count, tile, tile.triangles);
 }
 
-// m, of the thickest vertex.
-float thickness_of(const Tile& tile, const SearchedCloth& cloth) {
-    if (!cloth.uneven) return cloth.thickness;
-    float most = 0;
-    for (std::uint32_t i = 0; i < tile.vertex_count; ++i) most = std::max(most, cloth.uneven.at(tile.particle[i]));
-    return most;
-}
-
 }  // namespace
 
 void PairList::reserve(std::uint32_t pairs) {
@@ -110,7 +102,8 @@ void PairSearch::set_cloths(const SearchLoops& loops, std::vector<SearchedCloth>
         thickest_ = std::max(thickest_, cloths_[c].thickness);
         most_slack_ = std::max(most_slack_, cloths_[c].slack);
         for (const Tile& tile : *cloths_[c].tiles) {
-            thickness_[at] = thickness_of(tile, cloths_[c]);
+            const std::span vertices(tile.particle.data(), tile.vertex_count);
+            thickness_[at] = cloths_[c].uneven ? cloths_[c].uneven.most_of(vertices) : cloths_[c].thickness;
             TileState& state = tiles_[at++];
             state.tile = &tile;
             state.cloth = c;

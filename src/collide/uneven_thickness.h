@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 
 namespace weft {
 
@@ -13,6 +14,11 @@ struct UnevenThickness {
 
     explicit operator bool() const { return factors != nullptr; }
     float at(std::uint32_t particle) const { return std::max(of_fabric * factors[particle], least); }
+    float most_of(std::span<const std::uint32_t> particles) const {
+        float most = 0;
+        for (const std::uint32_t p : particles) most = std::max(most, at(p));
+        return most;
+    }
     friend bool operator==(const UnevenThickness&, const UnevenThickness&) = default;
 };
 

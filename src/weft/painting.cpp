@@ -48,18 +48,18 @@ Result<void> paint_channel(ColorChannel channel, float factor, const PinnedCloth
 
 }  // namespace
 
-ClothWeights::Factors& factors_of(ClothWeights& weights, WeightOf of) {
+ClothWeights::Factors ClothWeights::*factors_of(WeightOf of) {
     switch (of) {
         case WeightOf::density:
-            return weights.density;
+            return &ClothWeights::density;
         case WeightOf::stretch:
-            return weights.stretch;
+            return &ClothWeights::stretch;
         case WeightOf::bend:
-            return weights.bend;
+            return &ClothWeights::bend;
         case WeightOf::thickness:
             break;
     }
-    return weights.thickness;
+    return &ClothWeights::thickness;
 }
 
 template <class Desc>
@@ -91,7 +91,7 @@ Result<ClothWeights> weights_of(std::span<const WeightDesc> weights, const Pinne
     ClothWeights result;
     Errors errors;
     for (std::size_t i = 0; i < weights.size(); ++i) {
-        std::vector<float>& factors = factors_of(result, weights[i].of).of_particles;
+        std::vector<float>& factors = (result.*factors_of(weights[i].of)).of_particles;
         factors.resize(cloth.numbers.particle_count, 1.0f);
         if (const auto done = paint_factors(weights[i], cloth, factors, at(place, i)); !done)
             errors.insert(errors.end(), done.errors().begin(), done.errors().end());

@@ -24,11 +24,8 @@ extern template Result<void> paint_factors(const ResistanceDesc&, const PinnedCl
 extern template Result<void> paint_factors(const WeightDesc&, const PinnedCloth&, std::vector<float>&,
                                            const std::string&);
 
-/// The factors on one value of the fabric.
-ClothWeights::Factors& factors_of(ClothWeights& weights, WeightOf of);
-inline const ClothWeights::Factors& factors_of(const ClothWeights& weights, WeightOf of) {
-    return factors_of(const_cast<ClothWeights&>(weights), of);
-}
+/// The member with the factors on one value of the fabric.
+ClothWeights::Factors ClothWeights::*factors_of(WeightOf of);
 
 /// The weights of a cloth, of which each triangle gets the mean of its corners. `place`: that of `weights` in errors.
 Result<ClothWeights> weights_of(std::span<const WeightDesc> weights, const PinnedCloth& cloth,

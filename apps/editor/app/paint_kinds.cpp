@@ -159,7 +159,7 @@ std::vector<Edit> prepare_resistance(const PaintTarget& target) {
 
 template <WeightOf of>
 std::vector<float> read_weights(const PaintTarget& target) {
-    const std::vector<float>& known = factors_of(*target.frame.model->weights, of).of_particles;
+    const std::vector<float>& known = (*target.frame.model->weights.*factors_of(of)).of_particles;
     std::vector<float> values(target.cloth.particles(), 1.0f);
     std::copy_n(known.begin(), std::min(known.size(), values.size()), values.begin());
     return read_factors(target, weights_of(target, of), std::move(values));

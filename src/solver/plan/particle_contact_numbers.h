@@ -32,14 +32,11 @@ inline constexpr std::array<ParticleSweep, 4> particle_sweeps{{
     {.deep = 0.8f, .recovery_speed = 4, .split = 0.6f},
 }};
 
-/// m, of a particle with this factor on the fabric's thickness; a pair has the mean of both. Where the thickness asks
-/// for more than the edges, that wins.
-inline float particle_diameter(const ClothModel& model, float factor) {
-    return std::max(particle_diameter_in_edges * model.mean_edge, model.fabric.contact.thickness * factor);
-}
-/// Of the largest particle.
+/// m, of the largest particle; a pair has the mean of both. Where the thickness asks for more than the edges, that
+/// wins.
 inline float particle_diameter(const ClothModel& model) {
-    return particle_diameter(model, model.thickness_range[1]);
+    return std::max(particle_diameter_in_edges * model.mean_edge,
+                    model.fabric.contact.thickness * model.thickness_range[1]);
 }
 /// The same of every particle, if they differ.
 inline UnevenThickness uneven_diameters(const ClothModel& model) {

@@ -31,15 +31,6 @@ static_assert(WEFT_LIMIT_SLIDES == limit_slides && WEFT_LIMIT_HALVINGS == limit_
 // Part of the slack of lists by which contact may move particles. The rest is for the motion of the following substeps.
 constexpr float contact_part_of_slack = 0.7f;
 
-// m, of the thickest vertex.
-float thickness_of(const Tile& tile, const ClothModel& model) {
-    if (model.thickness_factors.empty()) return pair_thickness(model);
-    float factor = 0;
-    for (std::uint32_t i = 0; i < tile.vertex_count; ++i)
-        factor = std::max(factor, model.thickness_factors[tile.particle[i]]);
-    return pair_thickness(model, factor);
-}
-
 // The tiles of all cloths, as the shaders read them.
 struct TileArrays {
     std::vector<ContactTileIn> tiles;
@@ -47,13 +38,15 @@ struct TileArrays {
 
     void add(const Tile& tile, const ClothModel& model, std::uint32_t cloth, std::uint32_t base, float slack) {
         const ContactMaterial& material = model.fabric.contact;
+        const UnevenThickness uneven = uneven_pair_thickness(model);
+        const std::span vertices(tile.particle.data(), tile.vertex_count);
         tiles.push_back(
             {.vertices = tile.vertex_count,
              .own_vertices = tile.own_vertices,
              .edges = tile.edge_count,
              .triangles = tile.triangle_count,
              .cloth = cloth,
-             .thickness = thickness_of(tile, model),
+             .thickness = uneven ? uneven.most_of(vertices) : pair_thickness(model),
              .static_friction = material.friction[0],
              .kinetic_friction = material.friction[1],
              .groups = model.collision.filter.groups,
@@ -124,9 +117,9 @@ struct FrameArrays {
         Vec4* const mine = &rest[member.cloth->base()];
         std::copy_n(model.rest_of_features(), model.particle_count, mine);
         for (std::uint32_t p = 0; p < model.particle_count; ++p) mine[p].w = cap_of(model);
+        const UnevenThickness own = uneven_pair_thickness(model);
         for (std::uint32_t p = 0; uneven && p < model.particle_count; ++p)
-            thickness[member.cloth->base() + p] =
-                pair_thickness(model, model.thickness_factors.empty() ? 1 : model.thickness_factors[p]);
+            thickness[member.cloth->base() + p] = own ? own.at(p) : pair_thickness(model);
         if (member.poses == 0) return;
         carriers.push_back(member.poses);
         std::fill_n(&carrier[member.cloth->base()], model.particle_count, static_cast<std::uint32_t>(carriers.size()));

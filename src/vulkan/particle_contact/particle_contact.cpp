@@ -27,6 +27,7 @@ struct SphereArrays {
     void add(const ClothModel& model, std::uint32_t cloth, std::uint32_t base) {
         const std::vector<std::uint32_t>& order = *model.along_curve;
         const auto size = static_cast<std::uint32_t>(order.size());
+        const UnevenThickness uneven = uneven_diameters(model);
         for (std::uint32_t begin = 0; begin < size; begin += WEFT_PARTICLE_TILE) {
             tiles.push_back({.count = std::min<std::uint32_t>(WEFT_PARTICLE_TILE, size - begin),
                              .cloth = cloth,
@@ -40,9 +41,8 @@ struct SphereArrays {
             for (std::uint32_t i = begin; i < begin + WEFT_PARTICLE_TILE; ++i) {
                 const std::uint32_t p = order[std::min(i, size - 1)];
                 particles.push_back(base + p);
-                const float factor = model.thickness_factors.empty() ? 1 : model.thickness_factors[p];
                 const Vec4 x = model.start[p];
-                rest.push_back({x.x, x.y, x.z, particle_diameter(model, factor)});
+                rest.push_back({x.x, x.y, x.z, uneven ? uneven.at(p) : particle_diameter(model)});
                 largest = std::max(largest, rest.back().w);
             }
         }
