@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <tuple>
 #include <variant>
 
@@ -39,6 +40,9 @@ BodyFeatures features_of_shape(const BoxDesc& box, const ShapeData*) {
         for (unsigned bits = 0; bits < 8; ++bits)
             if (!(bits >> axis & 1)) features.edges.push_back({corner(bits), corner(bits | 1u << axis), 0, 0});
     }
+    const Vec3 half = box.half_extents;
+    features.faces = {{{1, 0, 0}, half.x},  {{-1, 0, 0}, half.x}, {{0, 1, 0}, half.y},
+                      {{0, -1, 0}, half.y}, {{0, 0, 1}, half.z},  {{0, 0, -1}, half.z}};
     return features;
 }
 
@@ -85,6 +89,18 @@ BodyFeatures features_of_shape(const ConvexDesc& convex, const ShapeData* data) 
         const auto& [next_a, next_b, next_vertex] = sides[i + 1];
         if (a != next_a || b != next_b || mesh.normals[vertex] == mesh.normals[next_vertex]) continue;
         features.edges.push_back({features.points[a].place, features.points[b].place, convex.radius, convex.radius});
+    }
+    // One face for each normal.
+    std::vector<Vec3> normals = mesh.normals;
+    const auto order = [](Vec3 a, Vec3 b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
+    std::ranges::sort(normals, order);
+    const auto [end, last] = std::ranges::unique(normals);
+    normals.erase(end, last);
+    features.roundness = convex.radius;
+    for (const Vec3 normal : normals) {
+        float offset = -std::numeric_limits<float>::infinity();
+        for (const Vec3 p : mesh.positions) offset = std::max(offset, dot(normal, p));
+        features.faces.push_back({normal, offset});
     }
     return features;
 }

@@ -74,12 +74,14 @@ void Bodies::run(const Pass& pass) {
                 for (BodyInStep& body : bodies_) body.found = body.now;
                 return count_touches();
             }
-            take_sums(sweeps_of_move(pass.batch));
+            take_sums(sweeps_of_move(pass.batch, substep_));
             if (pass.batch == move_after_pulls)
                 for (BodyInStep& body : bodies_) body.placed = body.now;
             return;
         default:  // finish_bodies
-            for (std::uint32_t sweep = 0; sweep < sweeps_of_velocities; ++sweep) contacts_.bounce();
+            for (std::uint32_t sweep = 0; sweep < sweeps_in(substep_, sweeps_of_velocities); ++sweep)
+                contacts_.bounce();
+            contacts_.lift();
             ++substep_;
             return watch_reach();
     }
@@ -89,7 +91,8 @@ void Bodies::run_alone(const WorldPlan& plan) {
     const FlushSubnormals flush;
     for (std::uint32_t substep = 0; substep < plan.substeps; ++substep) {
         predict();
-        for (std::uint32_t sweep = 0; sweep < body_sweeps; ++sweep) take_sums(sweeps_after_particles);
+        for (std::uint32_t sweep = 0; sweep < body_sweeps; ++sweep)
+            take_sums(sweeps_of_move(move_after_particles, substep_));
         run({.kind = PassKind::finish_bodies});
     }
 }

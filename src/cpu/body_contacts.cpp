@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 namespace weft::cpu {
 namespace {
@@ -19,6 +20,19 @@ scalar::Solid solid_of(const Collider& collider) {
             steepness_of(collider),
             roundness_of(collider),
             layer_distance_of(collider)};
+}
+
+scalar::FlatFaces faces_of(const BodyFeatures& features) {
+    static_assert(sizeof(FlatFace) == 4 * sizeof(float));
+    return {{reinterpret_cast<const float*>(features.faces.data())},
+            0,
+            static_cast<int>(features.faces.size()),
+            features.roundness};
+}
+
+scalar::FeatureBalls balls_of(const BodyFeatures& features) {
+    static_assert(sizeof(RoundPoint) == 4 * sizeof(float));
+    return {{reinterpret_cast<const float*>(features.points.data())}, 0, static_cast<int>(features.points.size())};
 }
 
 scalar::ContactBody between_poses(const Pose& before, const Pose& now) {
@@ -54,6 +68,11 @@ void turn_inertia(BodyInStep& body) {
 
 void push(BodyInStep& body, const scalar::BodyPush& by, float h) {
     push_body(body.motion, body.inverse_mass, body.inertia, by, scalar::step_without_limits(h, 1 / h, 1 / h / h));
+    place(body);
+}
+
+void shift(BodyInStep& body, const scalar::BodyPush& by, float h) {
+    shift_body(body.motion, body.inverse_mass, body.inertia, by, scalar::step_without_limits(h, 1 / h, 1 / h / h));
     place(body);
 }
 
@@ -122,8 +141,26 @@ void BodyContacts::find_pairs(std::span<const Bounds> reach) {
 
 void BodyContacts::find_contacts(std::uint32_t substep) {
     substep_ = substep;
+    std::swap(rows_, before_);
     rows_.clear();
     for (const Pair& pair : pairs_) find_contacts(pair);
+    go_on();
+}
+
+// Rows are in the order of their keys.
+void BodyContacts::go_on() {
+    const auto key = [](const Row& row) { return std::tie(row.a, row.b, row.place); };
+    auto old = before_.cbegin();
+    for (Row& row : rows_) {
+        while (old != before_.cend() && key(*old) < key(row)) ++old;
+        if (old == before_.cend() || key(*old) != key(row)) continue;
+        go_on_from(old->touch, slow(), row.touch);
+        vec3 touched;
+        const vec3 by = given_by(row.touch, side_of(row.a), touched);
+        if (dot(by, by) > 0)
+            apply(row, touched, by * step_.inv_h,
+                  [&](BodyInStep& body, const scalar::BodyPush& one) { push(body, one, step_.h); });
+    }
 }
 
 // Of a pair of a body and a collider the body gives how far both are apart; of two bodies the one with the features.
@@ -145,42 +182,52 @@ void BodyContacts::find_contacts(const Pair& pair) {
     const float margin = body_margin(solid_of(input_->colliders[other]), of_other.poses, center, body.radius, way);
     if (margin < 0) return;
     const scalar::Solid solid = solid_of(theirs);
+    const scalar::FlatFaces faces = faces_of(theirs.features);
+    const int face = mine.features.edges.empty() ? -1 : face_toward(faces, balls_of(mine.features), a.poses, b.poses);
+    std::uint32_t place = 0;
     const auto add = [&](Vec3 local, float radius) {
-        Row row{pair.features, pair.shape, {}};
-        if (!touch_body(solid, a, b, vector_of(local), radius, margin, step_, row.touch)) return;
+        Row row{pair.features, pair.shape, place, {}};
+        if (!touch_body(solid, faces, face, a, b, vector_of(local), radius, margin, step_, row.touch)) return;
         row.touch.static_friction = std::sqrt(mine.friction[0] * theirs.friction[0]);
         row.touch.kinetic_friction = std::sqrt(mine.friction[1] * theirs.friction[1]);
         row.touch.restitution = std::max(restitution_of(mine), restitution_of(theirs));
         rows_.push_back(row);
     };
-    for (const RoundPoint& point : mine.features.points) add(point.place, point.radius);
+    for (const RoundPoint& point : mine.features.points) {
+        add(point.place, point.radius);
+        ++place;
+    }
     for (const RoundEdge& edge : mine.features.edges) {
         const scalar::BodyEdge at{vector_of(edge.from), vector_of(edge.to), edge.radius_from, edge.radius_to};
-        const float part = nearest_on_edge(solid, a.poses, b.poses, at, margin);
-        if (part >= 0)
-            add(edge.from + (edge.to - edge.from) * part,
-                edge.radius_from + (edge.radius_to - edge.radius_from) * part);
+        for (const bool last : {false, true}) {
+            const float part = touching_part(solid, faces, face, a.poses, b.poses, at, margin, last);
+            if (part >= 0)
+                add(edge.from + (edge.to - edge.from) * part,
+                    edge.radius_from + (edge.radius_to - edge.radius_from) * part);
+            ++place;
+        }
     }
 }
 
 // Whether a sweep may change anything. Most contacts are open, so this comes before the sides are put together.
-bool BodyContacts::acts(const Row& row, float depenetration) const {
+bool BodyContacts::acts(const Row& row) const {
+    return row.touch.push > 0 || gap_of(row) < std::min(0.0f, row.touch.gap_at_start);
+}
+
+float BodyContacts::gap_of(const Row& row) const {
     const scalar::BodyTouch& touch = row.touch;
-    if (touch.push > 0) return true;
     const auto place = [&](std::uint32_t collider, vec3 local) {
         const BodyInStep* body = body_of(collider);
         return vector_of(to_world(body ? body->now : input_->places->pose(collider, substep_ + 1), vector_of(local)));
     };
-    const float gap = dot(touch.normal, place(row.a, touch.local_a) - place(row.b, touch.local_b)) - touch.radius;
-    return gap < std::min(0.0f, touch.gap_at_start + depenetration);
+    return dot(touch.normal, place(row.a, touch.local_a) - place(row.b, touch.local_b)) - touch.radius;
 }
 
 void BodyContacts::project() {
-    const float depenetration = depenetration_speed * step_.h;
     for (Row& row : rows_) {
-        if (!acts(row, depenetration)) continue;
+        if (!acts(row)) continue;
         vec3 touched;
-        const vec3 by = project_bodies(row.touch, side_of(row.a), side_of(row.b), depenetration, touched);
+        const vec3 by = project_bodies(row.touch, side_of(row.a), side_of(row.b), touched);
         if (dot(by, by) > 0)
             apply(row, touched, by * step_.inv_h,
                   [&](BodyInStep& body, const scalar::BodyPush& one) { push(body, one, step_.h); });
@@ -197,15 +244,30 @@ void BodyContacts::apply(const Row& row, vec3 touched, vec3 impulse, Apply&& to)
     one(row.b, -impulse);
 }
 
-// What gravity adds in two substeps does not bounce.
+// m/s: what gravity adds in two substeps. What is slower does not bounce.
+float BodyContacts::slow() const {
+    return 2 * step_.h * length(input_->gravity);
+}
+
 void BodyContacts::bounce() {
-    const float slow = 2 * step_.h * length(input_->gravity);
     for (Row& row : rows_) {
         if (!(row.touch.push > 0)) continue;
         vec3 touched;
-        const vec3 impulse = bounce_bodies(row.touch, side_now(row.a), side_now(row.b), slow, step_, touched);
+        const vec3 impulse = bounce_bodies(row.touch, side_now(row.a), side_now(row.b), slow(), step_, touched);
         apply(row, touched, impulse,
               [](BodyInStep& body, const scalar::BodyPush& one) { hit_body(body.motion, body.inverse_mass, one); });
+    }
+}
+
+void BodyContacts::lift() {
+    const float depenetration = depenetration_speed * step_.h;
+    for (const Row& row : rows_) {
+        if (!(gap_of(row) < std::min(static_cast<float>(-WEFT_BODY_SLACK), row.touch.gap_at_start + depenetration)))
+            continue;
+        vec3 touched;
+        const vec3 by = lift_bodies(row.touch, side_of(row.a), side_of(row.b), depenetration, touched);
+        apply(row, touched, by * step_.inv_h,
+              [&](BodyInStep& body, const scalar::BodyPush& one) { shift(body, one, step_.h); });
     }
 }
 

@@ -36,6 +36,8 @@ void place(BodyInStep& body);
 void turn_inertia(BodyInStep& body);
 /// push_body() for a substep of h s.
 void push(BodyInStep& body, const scalar::BodyPush& by, float h);
+/// shift_body() likewise.
+void shift(BodyInStep& body, const scalar::BodyPush& by, float h);
 
 /// Pairs are searched once per frame, and again when a body leaves its box. Contacts are found in every substep, where
 /// the bodies are then. No result depends on which pairs are listed besides those that touch.
@@ -46,13 +48,16 @@ class BodyContacts {
                      float h);
     /// `reach`: where each body is expected in the rest of the frame.
     void find_pairs(std::span<const Bounds> reach);
-    /// Finds the contacts of a substep, after the bodies have been predicted.
+    /// Finds the contacts of a substep, after the bodies have been predicted. They begin with what they gave in the
+    /// substep of the frame before.
     void find_contacts(std::uint32_t substep);
     bool empty() const { return rows_.empty(); }
     /// One sweep over the contacts, one after another.
     void project();
     /// Likewise for the velocities at the end of a substep.
     void bounce();
+    /// Likewise for overlap from before the substep, after that.
+    void lift();
 
   private:
     /// A body whose features meet the shape of a collider, body or not; or the other way around.
@@ -61,10 +66,14 @@ class BodyContacts {
         friend auto operator<=>(const Pair&, const Pair&) = default;
     };
     struct Row {
-        std::uint32_t a, b;  ///< colliders
+        std::uint32_t a, b;   ///< colliders
+        std::uint32_t place;  ///< number of the place on the features where it may touch
         scalar::BodyTouch touch;
     };
-    bool acts(const Row& row, float depenetration) const;
+    bool acts(const Row& row) const;
+    float slow() const;
+    /// m: how far the sides of a row are apart.
+    float gap_of(const Row& row) const;
     scalar::BodySide side_of(std::uint32_t collider) const;
     /// The same with the velocities of now.
     scalar::BodySide side_now(std::uint32_t collider) const;
@@ -72,6 +81,7 @@ class BodyContacts {
     template <class Apply>
     void apply(const Row& row, scalar::vec3 touched, scalar::vec3 impulse, Apply&& to);
     void find_contacts(const Pair& pair);
+    void go_on();
 
     const StepInput* input_ = nullptr;
     std::span<BodyInStep> bodies_;
@@ -80,7 +90,7 @@ class BodyContacts {
     std::uint32_t substep_ = 0;
     std::vector<Pair> pairs_;
     std::vector<std::uint32_t> found_;
-    std::vector<Row> rows_;
+    std::vector<Row> rows_, before_;  ///< of the substep, and of the one before it in the frame
 };
 
 }  // namespace weft::cpu

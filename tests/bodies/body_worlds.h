@@ -27,14 +27,6 @@ inline Collider make_ball(float radius, float mass, Vec3 position, const BodyDes
 inline Collider make_box(Vec3 half, float mass, Vec3 position, const BodyDesc& desc = {}) {
     Collider box = make_collider({.name = "box", .shape = BoxDesc{.half_extents = half}});
     box.pose.position = position;
-    for (int i = 0; i < 8; ++i) {
-        const auto corner = [&](int at) {
-            return Vec3{at & 1 ? half.x : -half.x, at & 2 ? half.y : -half.y, at & 4 ? half.z : -half.z};
-        };
-        box.features.points.push_back({corner(i), 0});
-        for (int bit = 1; bit < 8; bit *= 2)
-            if (!(i & bit)) box.features.edges.push_back({corner(i), corner(i | bit), 0, 0});
-    }
     const auto moment = [&](float a, float b) { return mass * (a * a + b * b) / 3; };
     const std::array<float, 3> moments{moment(half.y, half.z), moment(half.z, half.x), moment(half.x, half.y)};
     box.body = Body{.mass = {.mass = mass,

@@ -88,19 +88,23 @@ WEFT_FN void predict_body(inout_(BodyMotion) m, BodyInertia inertia, vec3 gravit
     m.turn = turned_by(m.turn, rate_of(middle, m.spin, inertia) * step.h);
 }
 
-// Changes velocity and spin, and place and rotation as if the impulse had come at the start of the substep.
-WEFT_FN void push_body(inout_(BodyMotion) m, real inverse_mass, BodyInertia inertia, BodyPush push, Step step)
-{
-    vec3 dv = push.impulse * inverse_mass;
-    m.v = plus_dropped(m.v, dv, m.v_dropped);
-    m.place = plus_dropped(m.place, dv * step.h, m.x_dropped);
-    m.spin = m.spin + push.twist;
-    m.turn = turned_by(m.turn, rate_of(m.turn, push.twist, inertia) * step.h);
-}
-
 // Changes velocity and spin alone.
 WEFT_FN void hit_body(inout_(BodyMotion) m, real inverse_mass, BodyPush push)
 {
     m.v = plus_dropped(m.v, push.impulse * inverse_mass, m.v_dropped);
     m.spin = m.spin + push.twist;
+}
+
+// Changes place and rotation alone: by what the impulse at the start of the substep would have moved them.
+WEFT_FN void shift_body(inout_(BodyMotion) m, real inverse_mass, BodyInertia inertia, BodyPush push, Step step)
+{
+    m.place = plus_dropped(m.place, push.impulse * inverse_mass * step.h, m.x_dropped);
+    m.turn = turned_by(m.turn, rate_of(m.turn, push.twist, inertia) * step.h);
+}
+
+// Changes velocity and spin, and place and rotation as if the impulse had come at the start of the substep.
+WEFT_FN void push_body(inout_(BodyMotion) m, real inverse_mass, BodyInertia inertia, BodyPush push, Step step)
+{
+    hit_body(m, inverse_mass, push);
+    shift_body(m, inverse_mass, inertia, push, step);
 }

@@ -111,7 +111,6 @@ struct BodyRow {
     vec3 normal;        // world, toward the first
     real gap_at_start;  // of the substep, m
     real static_friction, kinetic_friction;
-    real depenetration;  // m
 };
 
 // A body that does not give way.
@@ -135,7 +134,7 @@ WEFT_FN MovedBody immovable()
 WEFT_FN vec3 project_body_row(BodyRow row, inout_(ContactSum) sum, real gap, vec3 way, MovedBody a, MovedBody b,
                               vec3 lever_a, vec3 lever_b)
 {
-    real goal = min(real(0), row.gap_at_start + row.depenetration);
+    real goal = min(real(0), row.gap_at_start);
     real w = weight_of(a, lever_a, row.normal) + weight_of(b, lever_b, row.normal);
     real change = max((goal - gap) / max(w, real(1e-30)), -sum.push);
     sum.push = sum.push + change;

@@ -3,6 +3,8 @@
 
 // m: a contact that is open by less is listed, because pushes in the substep may close it.
 #define WEFT_BODY_OPEN_MARGIN 1e-4
+// m: overlap that stays, so that what rests is not moved in every substep.
+#define WEFT_BODY_SLACK 1e-5
 // Tangent steps along an edge.
 #define WEFT_BODY_EDGE_STEPS 6
 
@@ -39,17 +41,6 @@ struct BodyTouch {
     vec3 friction;               // kg m
 };
 
-// An edge between two balls, in the frame of its body.
-struct BodyEdge { vec3 from, to; real radius_from, radius_to; };
-
-WEFT_FN vec3 placed_by(ContactBody poses, vec3 local)
-{
-    return rotate(poses.rx, poses.ry, poses.rz, local) + poses.position;
-}
-WEFT_FN vec3 placed_by_start(ContactBody poses, vec3 local)
-{
-    return rotate(poses.rx0, poses.ry0, poses.rz0, local) + poses.position0;
-}
 // How far the point of the side that is now at `x` has moved since the start of the substep.
 WEFT_FN vec3 way_with(ContactBody poses, vec3 x) { return x - placed_by_start(poses, to_body(poses, x)); }
 
@@ -84,34 +75,42 @@ WEFT_FN real body_margin(Solid solid, ContactBody poses, vec3 center, real radiu
 }
 
 // Contact of a ball of the features of `a` with the shape of `b`. Returns false if there is none.
-//   poses    of `b`, with the radius as half thickness
-WEFT_FN bool touch_body(Solid solid, BodySide a, BodySide b, vec3 local, real radius, real margin, Step step,
-                        out_(BodyTouch) touch)
+//   face     of the faces of `b`: face_toward(), or -1
+WEFT_FN bool touch_body(Solid solid, FlatFaces faces, int face, BodySide a, BodySide b, vec3 local, real radius,
+                        real margin, Step step, out_(BodyTouch) touch)
 {
     ContactBody poses = b.poses;
     poses.half_thickness = radius;
     vec3 x = placed_by(a.poses, local), start = placed_by_start(a.poses, local);
     vec3 at = to_body(poses, x), at_start = to_body_at_start(poses, start);
-    vec3 normal;
-    real gap = solid_distance(solid, at, normal) - radius;
-    vec3 way = at - at_start;
-    if (gap > margin + real(2) * solid.steepness * sqrt(dot(way, way))) return false;
-    ContactSum none;
-    none.friction = vec3(real(0), real(0), real(0));
-    none.push = real(0);
-    ContactPlane plane = contact_plane(solid, poses, none, at, at_start, gap, normal);
-    if (!(plane.gap < margin)) return false;
+    FaceGap to;
+    to.meets = false;
+    if (face >= 0) to = gap_to_face(faces, face, at, at_start, radius);
+    if (!to.meets) {
+        vec3 normal;
+        real gap = solid_distance(solid, at, normal) - radius;
+        vec3 way = at - at_start;
+        if (gap > margin + real(2) * solid.steepness * sqrt(dot(way, way))) return false;
+        ContactSum none;
+        none.friction = vec3(real(0), real(0), real(0));
+        none.push = real(0);
+        ContactPlane plane = contact_plane(solid, poses, none, at, at_start, gap, normal);
+        to.gap = plane.gap;
+        to.gap_at_start = plane.gap_at_start;
+        to.normal = plane.normal;
+    }
+    if (!(to.gap < margin)) return false;
     touch.local_a = local;
-    touch.local_b = at - plane.normal * (plane.gap + radius);
-    touch.normal = rotate(poses.rx, poses.ry, poses.rz, plane.normal);
+    touch.local_b = at - to.normal * (to.gap + radius);
+    touch.normal = rotate(poses.rx, poses.ry, poses.rz, to.normal);
     touch.radius = radius;
-    touch.gap_at_start = plane.gap_at_start;
+    touch.gap_at_start = to.gap_at_start;
     vec3 touched = x - touch.normal * radius;
     touch.approach = dot(touch.normal, speed_with(a, touched, a.v, a.rate, step) -
                                            speed_with(b, touched, b.v, b.rate, step));
     touch.taken = real(0);
     touch.push = real(0);
-    touch.friction = none.friction;
+    touch.friction = vec3(real(0), real(0), real(0));
     return true;
 }
 
@@ -158,9 +157,41 @@ WEFT_FN real nearest_on_edge(Solid solid, ContactBody a, ContactBody b, BodyEdge
     return !outside && best_distance < (margin < least ? margin : least) ? best : real(-1);
 }
 
+// Where the edge of `a` touches the shape of `b`, as a part of it; negative: nowhere. An edge that lies on the face touches
+// with both ends of what lies there, unless they are ends of the edge. Any other edge touches in one place.
+//   last     the second place
+WEFT_FN real touching_part(Solid solid, FlatFaces faces, int face, ContactBody a, ContactBody b, BodyEdge edge,
+                           real margin, bool last)
+{
+    if (face >= 0) {
+        EdgeOnFace on = edge_on_face(faces, face, a, b, edge);
+        if (on.lies && last) return on.high < real(1) ? on.high : real(-1);
+        if (on.lies) return on.low > real(0) ? on.low : real(-1);
+    }
+    return last ? real(-1) : nearest_on_edge(solid, a, b, edge, margin);
+}
+
+// Lets a contact begin with what it gave in the substep before, so that what lies on one another settles within a few
+// substeps. What came nearer faster than `slow`, m/s, hit, which it does not do again.
+WEFT_FN void go_on_from(BodyTouch before, real slow, inout_(BodyTouch) touch)
+{
+    if (before.approach < -slow) return;
+    touch.push = before.push;
+    touch.friction = before.friction - touch.normal * dot(before.friction, touch.normal);
+}
+
+// What a contact has given so far, kg m, to the first side. `touched`: m: where.
+WEFT_FN vec3 given_by(BodyTouch touch, BodySide a, out_(vec3) touched)
+{
+    touched = placed_by(a.poses, touch.local_a) - touch.normal * touch.radius;
+    return touch.normal * touch.push + touch.friction;
+}
+
+// Lets no contact get deeper than it was at the start of the substep.
+//
 // What the first side gains, kg m: the impulse times the length of the substep. The second one loses it.
 //   touched   m: where
-WEFT_FN vec3 project_bodies(inout_(BodyTouch) touch, BodySide a, BodySide b, real depenetration, out_(vec3) touched)
+WEFT_FN vec3 project_bodies(inout_(BodyTouch) touch, BodySide a, BodySide b, out_(vec3) touched)
 {
     vec3 xa = placed_by(a.poses, touch.local_a), xb = placed_by(b.poses, touch.local_b);
     touched = xa - touch.normal * touch.radius;
@@ -172,13 +203,25 @@ WEFT_FN vec3 project_bodies(inout_(BodyTouch) touch, BodySide a, BodySide b, rea
     row.gap_at_start = touch.gap_at_start;
     row.static_friction = touch.static_friction;
     row.kinetic_friction = touch.kinetic_friction;
-    row.depenetration = depenetration;
     vec3 way = way_with(a.poses, touched) - way_with(b.poses, touched);
     vec3 by = project_body_row(row, sum, dot(touch.normal, xa - xb) - touch.radius, way, a.moved, b.moved,
                                touched - a.moved.center, touched - b.moved.center);
     touch.friction = sum.friction;
     touch.push = sum.push;
     return by;
+}
+
+// The same for overlap from before the substep. It only moves the sides, or they would fly apart.
+//   depenetration   m: so much of it goes
+WEFT_FN vec3 lift_bodies(BodyTouch touch, BodySide a, BodySide b, real depenetration, out_(vec3) touched)
+{
+    vec3 xa = placed_by(a.poses, touch.local_a), xb = placed_by(b.poses, touch.local_b);
+    touched = xa - touch.normal * touch.radius;
+    real gap = dot(touch.normal, xa - xb) - touch.radius;
+    real w = weight_of(a.moved, touched - a.moved.center, touch.normal) +
+             weight_of(b.moved, touched - b.moved.center, touch.normal);
+    real goal = min(real(-WEFT_BODY_SLACK), touch.gap_at_start + depenetration);
+    return touch.normal * (max(goal - gap, real(0)) / max(w, real(1e-30)));
 }
 
 // After Müller et al. 2020, "Detailed Rigid Body Simulation with Extended Position Based Dynamics", section 3.6: the

@@ -6,6 +6,7 @@
 
 namespace weft::scalar {
 
+#include "physics/body/faces.kernel.h"
 #include "physics/body/pairs.kernel.h"
 
 inline vec3 vector_of(Vec3 v) {

@@ -17,8 +17,8 @@ namespace weft::vulkan {
 namespace {
 
 // Sizes of the GLSL layout.
-static_assert(sizeof(BodyIn) == 304 && sizeof(FeaturesIn) == 32 && sizeof(BodyRowIn) == 96 && sizeof(BodiesIn) == 184 &&
-              sizeof(BodiesArgs) == 24);
+static_assert(sizeof(BodyIn) == 304 && sizeof(FeaturesIn) == 32 && sizeof(BodyRowIn) == 112 &&
+              sizeof(BodiesIn) == 200 && sizeof(BodiesArgs) == 24);
 
 Vec4 with(Vec3 v, float w) {
     return {v.x, v.y, v.z, w};
@@ -58,7 +58,7 @@ BodyIn body_in(const BodyStep& step, const Collider& collider, float h) {
 // The features of all colliders, as the shader reads them.
 struct FeatureArrays {
     std::vector<FeaturesIn> features;
-    std::vector<Vec4> points, edges;
+    std::vector<Vec4> points, edges, faces;
 
     explicit FeatureArrays(std::span<const Collider> colliders) {
         for (const Collider& collider : colliders) {
@@ -67,13 +67,16 @@ struct FeatureArrays {
                                 .points = static_cast<std::uint32_t>(of.points.size()),
                                 .first_edge = static_cast<std::uint32_t>(edges.size() / 2),
                                 .edges = static_cast<std::uint32_t>(of.edges.size()),
-                                .kind = kind_of_features(collider),
-                                .unused = {}});
+                                .first_face = static_cast<std::uint32_t>(faces.size()),
+                                .faces = static_cast<std::uint32_t>(of.faces.size()),
+                                .roundness = of.roundness,
+                                .kind = kind_of_features(collider)});
             for (const RoundPoint& point : of.points) points.push_back(with(point.place, point.radius));
             for (const RoundEdge& edge : of.edges) {
                 edges.push_back(with(edge.from, edge.radius_from));
                 edges.push_back(with(edge.to, edge.radius_to));
             }
+            for (const FlatFace& face : of.faces) faces.push_back(with(face.normal, face.offset));
         }
     }
 };
@@ -130,11 +133,13 @@ Result<void> Bodies::make_buffers(gpu::Device& device, const StepInput& input) {
     const std::uint64_t features = take(arrays.features.size() * sizeof(FeaturesIn)),
                         points = take(arrays.points.size() * sizeof(Vec4)),
                         edges = take(arrays.edges.size() * sizeof(Vec4)),
+                        faces = take(arrays.faces.size() * sizeof(Vec4)),
                         sums = take(std::uint64_t{count} * WEFT_BODY_SUM_WORDS * word),
                         poses = take(std::uint64_t{count} * WEFT_BODY_POSES * sizeof(PoseIn)),
                         pairs = take(std::uint64_t{room_.pairs} * 2 * word), margins = take(room_.pairs * word),
-                        tasks = take(room_.pairs * word), rows = take(room_.rows * sizeof(BodyRowIn)),
-                        order = take(room_.rows * word), levels = take((room_.rows + std::uint64_t{1}) * word);
+                        facing = take(room_.pairs * word), tasks = take(room_.pairs * word),
+                        rows = take(2 * std::uint64_t{room_.rows} * sizeof(BodyRowIn)), order = take(room_.rows * word),
+                        levels = take((room_.rows + std::uint64_t{1}) * word);
     for (auto&& [buffer, bytes, kind] : {std::tuple(&upload_, body_bytes(count), gpu::MemoryKind::upload),
                                          std::tuple(&head_, body_bytes(count), gpu::MemoryKind::device),
                                          std::tuple(&lists_, end, gpu::MemoryKind::device),
@@ -150,6 +155,7 @@ Result<void> Bodies::make_buffers(gpu::Device& device, const StepInput& input) {
     if (auto done = put(features, arrays.features); !done) return done;
     if (auto done = put(points, arrays.points); !done) return done;
     if (auto done = put(edges, arrays.edges); !done) return done;
+    if (auto done = put(faces, arrays.faces); !done) return done;
     const std::uint64_t first = lists_.address();
     const std::uint64_t reports = addresses_.reports;
     addresses_ = {};
@@ -160,8 +166,10 @@ Result<void> Bodies::make_buffers(gpu::Device& device, const StepInput& input) {
     addresses_.features = first + features;
     addresses_.points = first + points;
     addresses_.edges = first + edges;
+    addresses_.faces = first + faces;
     addresses_.pairs = first + pairs;
     addresses_.margins = first + margins;
+    addresses_.facing = first + facing;
     addresses_.tasks = first + tasks;
     addresses_.rows = first + rows;
     addresses_.order = first + order;
@@ -220,11 +228,11 @@ Result<void> Bodies::record(gpu::Device& device, Programs& programs, gpu::Comman
     if (pass.kind == PassKind::predict_bodies) {
         args.pass = WEFT_BODIES_PREDICT;
     } else if (pass.kind == PassKind::finish_bodies) {
-        args.pass = WEFT_BODIES_FINISH, args.sweeps = sweeps_of_velocities;
+        args.pass = WEFT_BODIES_FINISH, args.sweeps = sweeps_in(substep, sweeps_of_velocities);
     } else if (pass.batch == move_before_faces) {
         args.pass = WEFT_BODIES_COUNT;
     } else {
-        args.pass = WEFT_BODIES_MOVE, args.sweeps = sweeps_of_move(pass.batch);
+        args.pass = WEFT_BODIES_MOVE, args.sweeps = sweeps_of_move(pass.batch, substep);
         args.places = pass.batch == move_after_pulls ? 1 : 0;
     }
     Recorder passes(device, programs, commands);

@@ -63,14 +63,16 @@ struct BodyIn {
     uint unused;
 };
 
-// The features of a collider: parts of BodiesIn::points and BodiesIn::edges.
+// The features of a collider: parts of BodiesIn::points, edges and faces.
 struct FeaturesIn {
     uint first_point;
     uint points;
     uint first_edge;
     uint edges;
-    int kind;  // WEFT_FEATURES_…
-    uint unused[3];
+    uint first_face;
+    uint faces;
+    float roundness;  // m, of the faces
+    int kind;         // WEFT_FEATURES_…
 };
 
 // BodyTouch, and what it is between.
@@ -79,6 +81,8 @@ struct BodyRowIn {
     uint b;
     uint body_a;  // bodies, or 0xffffffff
     uint body_b;
+    uint place;   // number of the place on the features where it may touch
+    uint unused[3];
     vec4 local_a;   // w: radius
     vec4 local_b;   // w: gap at the start
     vec4 normal;    // w: approach
@@ -93,10 +97,12 @@ struct BodiesIn {
     FeaturesRef features;  // by collider
     Vec4s points;          // place and radius
     Vec4s edges;           // two blocks each: an end and its radius
+    Vec4s faces;           // normal and offset
     Uints pairs;           // two words each: the colliders of features and shape
     Floats margins;        // by pair: body_margin()
-    Uints tasks;           // by pair: number of features of the near pairs before it
-    BodyRowRef rows;
+    Uints facing;          // by pair: face_toward() of a near one
+    Uints tasks;           // by pair: number of places on features, of the near pairs before it, where one may touch
+    BodyRowRef rows;    // room for those of two substeps
     Uints order;        // rows, level by level; those of a level share no body
     Uints levels;       // where each level begins in `order`, and the end
     BodyReportsRef reports;  // of all cloths
@@ -115,12 +121,12 @@ struct BodiesIn {
     // From here on the device writes.
     uint reach_serial;  // changes when a body has left its box, so that lists of near colliders may lack it
     uint pair_count;
+    uint first_row;  // of the substep
     uint row_count;
     uint level_count;
     uint wanted_pairs;  // the most in the frame
     uint wanted_rows;
     uint not_finite;
-    uint unused;
 };
 
 // WEFT_BODY_… of the pass; sweeps of WEFT_BODIES_MOVE and WEFT_BODIES_FINISH over contacts of bodies.

@@ -122,13 +122,13 @@ void move_bodies()
         if (has_sums(body)) {
             vec3 impulse = vec3(take_sum(body, 0u), take_sum(body, 1u), take_sum(body, 2u));
             vec3 twist = vec3(take_sum(body, 3u), take_sum(body, 4u), take_sum(body, 5u));
-            push_one(body, BodyPush(impulse, twist));
+            change_one(body, WEFT_PUSH, BodyPush(impulse, twist));
         }
         if (args.places == 1u) store_pose(body, WEFT_BODY_PLACED, pose_now(body));
         count_touches(body);
     }
     workgroup_barrier();
-    for (uint sweep = 0u; sweep < args.sweeps; ++sweep) sweep_rows(false);
+    for (uint sweep = 0u; sweep < args.sweeps; ++sweep) sweep_rows(WEFT_SWEEP_PROJECT);
 }
 
 void report(uint bits)
@@ -172,7 +172,8 @@ void main()
         move_bodies();
         break;
     case WEFT_BODIES_FINISH:
-        for (uint sweep = 0u; sweep < args.sweeps; ++sweep) sweep_rows(true);
+        for (uint sweep = 0u; sweep < args.sweeps; ++sweep) sweep_rows(WEFT_SWEEP_BOUNCE);
+        sweep_rows(WEFT_SWEEP_LIFT);
         watch_reach(args.substep + 1u);
         if (args.substep + 1u == WEFT_BODIES.substeps) check_frame();
         break;

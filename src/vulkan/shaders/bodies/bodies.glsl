@@ -7,6 +7,7 @@
 
 #include "physics/kernels.glsl"
 
+#include "physics/body/faces.kernel.h"
 #include "physics/body/pairs.kernel.h"
 
 layout(local_size_x = WEFT_BODY_GROUP) in;
@@ -93,19 +94,19 @@ void turn_inertia(uint body)
     WEFT_BODY(body).iz = vec4(inertia_column(pose, inertia, vec3(pose.x.z, pose.y.z, pose.z.z)), 0.0);
 }
 
-// Changes a body by an impulse, with its place (push_body) or without (hit_body).
-void push_one(uint body, BodyPush by)
+// What an impulse changes.
+#define WEFT_PUSH 0   // all: push_body
+#define WEFT_HIT 1    // velocity and spin: hit_body
+#define WEFT_SHIFT 2  // place and rotation: shift_body
+
+void change_one(uint body, uint how, BodyPush by)
 {
     BodyMotion m = motion_of(body);
-    push_body(m, inverse_mass_of(body), inertia_of(body), by, substep_of_bodies());
+    if (how == WEFT_PUSH) push_body(m, inverse_mass_of(body), inertia_of(body), by, substep_of_bodies());
+    else if (how == WEFT_HIT) hit_body(m, inverse_mass_of(body), by);
+    else shift_body(m, inverse_mass_of(body), inertia_of(body), by, substep_of_bodies());
     store_motion(body, m);
-    place_body(body, m);
-}
-void hit_one(uint body, BodyPush by)
-{
-    BodyMotion m = motion_of(body);
-    hit_body(m, inverse_mass_of(body), by);
-    store_motion(body, m);
+    if (how != WEFT_HIT) place_body(body, m);
 }
 
 ContactBody between_poses(PoseIn before, PoseIn now)
