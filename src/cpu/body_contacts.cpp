@@ -262,8 +262,7 @@ void BodyContacts::bounce() {
 void BodyContacts::lift() {
     const float depenetration = depenetration_speed * step_.h;
     for (const Row& row : rows_) {
-        if (!(gap_of(row) < std::min(static_cast<float>(-WEFT_BODY_SLACK), row.touch.gap_at_start + depenetration)))
-            continue;
+        if (!(gap_of(row) < lifted_gap(row.touch, depenetration))) continue;
         vec3 touched;
         const vec3 by = lift_bodies(row.touch, side_of(row.a), side_of(row.b), depenetration, touched);
         apply(row, touched, by * step_.inv_h,

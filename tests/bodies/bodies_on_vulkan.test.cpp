@@ -80,11 +80,7 @@ TEST(BodiesOnVulkan, stacks_are_the_same_as_on_the_cpu) {
             with_substeps(10),
             [degrees](World& world) {
                 add_tower(world, 4, degrees > 0 ? 0.004f : 0.0f, degrees);
-                Collider rod =
-                    make_collider({.name = "rod", .shape = CapsuleDesc{.radius = 0.02f, .half_height = 0.2f}});
-                rod.pose = {rotation_from_degrees({0, 0, 90}), {0.01f, 0.42f, 0}};
-                rod.body = make_box({0.02f, 0.2f, 0.02f}, 0.3f, {}).body;
-                world.add(rod);
+                world.add(make_rod({0.01f, 0.42f, 0}));
                 // Within another box at the start.
                 world.add(make_box({0.05f, 0.03f, 0.05f}, 0.2f, {0.08f, 0.06f, 0.01f}));
             },

@@ -22,4 +22,12 @@ inline std::vector<ColliderId> add_tower(World& world, int count, float shift = 
     return boxes;
 }
 
+/// A rod of 44 cm along x, in the middle of which is `position`.
+inline Collider make_rod(Vec3 position) {
+    Collider rod = make_collider({.name = "rod", .shape = CapsuleDesc{.radius = 0.02f, .half_height = 0.2f}});
+    rod.pose = {rotation_from_degrees({0, 0, 90}), position};
+    rod.body = make_box({0.02f, 0.2f, 0.02f}, 0.3f, {}).body;
+    return rod;
+}
+
 }  // namespace weft::physical

@@ -93,10 +93,7 @@ TEST(Stacks, a_rod_lies_on_a_box) {
     World world = make_world(WorldSettings{});
     world.add(make_floor());
     world.add(make_box({0.05f, 0.05f, 0.05f}, 0.5f, {0, 0.05f, 0}));
-    Collider rod = make_collider({.name = "rod", .shape = CapsuleDesc{.radius = 0.02f, .half_height = 0.2f}});
-    rod.pose = {rotation_from_degrees({0, 0, 90}), {0.01f, 0.12f, 0}};
-    rod.body = make_box({0.02f, 0.2f, 0.02f}, 0.3f, {}).body;
-    const ColliderId id = world.add(rod);
+    const ColliderId id = world.add(make_rod({0.01f, 0.12f, 0}));
     const Ways ways = ways_after(world, {id}, 3);
     EXPECT_LT(ways.up, 1e-3);
     EXPECT_LT(std::abs(world.collider(id).pose.rotation.y.y), 0.01) << "it tips over";

@@ -211,8 +211,14 @@ WEFT_FN vec3 project_bodies(inout_(BodyTouch) touch, BodySide a, BodySide b, out
     return by;
 }
 
+// m: the gap at which lift_bodies() leaves a contact.
+//   depenetration   m: so much of the overlap goes
+WEFT_FN real lifted_gap(BodyTouch touch, real depenetration)
+{
+    return min(real(-WEFT_BODY_SLACK), touch.gap_at_start + depenetration);
+}
+
 // The same for overlap from before the substep. It only moves the sides, or they would fly apart.
-//   depenetration   m: so much of it goes
 WEFT_FN vec3 lift_bodies(BodyTouch touch, BodySide a, BodySide b, real depenetration, out_(vec3) touched)
 {
     vec3 xa = placed_by(a.poses, touch.local_a), xb = placed_by(b.poses, touch.local_b);
@@ -220,8 +226,7 @@ WEFT_FN vec3 lift_bodies(BodyTouch touch, BodySide a, BodySide b, real depenetra
     real gap = dot(touch.normal, xa - xb) - touch.radius;
     real w = weight_of(a.moved, touched - a.moved.center, touch.normal) +
              weight_of(b.moved, touched - b.moved.center, touch.normal);
-    real goal = min(real(-WEFT_BODY_SLACK), touch.gap_at_start + depenetration);
-    return touch.normal * (max(goal - gap, real(0)) / max(w, real(1e-30)));
+    return touch.normal * (max(lifted_gap(touch, depenetration) - gap, real(0)) / max(w, real(1e-30)));
 }
 
 // After Müller et al. 2020, "Detailed Rigid Body Simulation with Extended Position Based Dynamics", section 3.6: the
