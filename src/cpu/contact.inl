@@ -204,7 +204,7 @@ WEFT_FN LaneContact lane_contact(const ParticleView& p, const ContactBody& body,
 // m, at most 0: how far the support will push the particle toward the body.
 WEFT_FN real inside_support(const Support& support, const ContactBody& body, const LaneContact& lane) {
     const vec3 normal = rotate(body.rx, body.ry, body.rz, lane.normal);
-    return min(room_before(support, lane.x, normal, body.depenetration), real(0.0f));
+    return min(room_before(support, lane.x, lane.start, normal, body.depenetration), real(0.0f));
 }
 
 template <class Shape>
@@ -262,7 +262,7 @@ inline void touch_body_pass(const ParticleView& p, const ContactView& c, const B
             store_taken(support, c.support, i);
             store_blocks_unordered(lane.x, lane.w, p.position + 4 * i);
             if (c.moved) trace_pass(c, i, at, before - undone, lane.x, lane.w);
-            if (b.moved) add_to_body(b, (lane.x - before) + undone, lane.x, lane.w);
+            if (b.moved) add_to_body(b, (lane.x - before) + undone, before, lane.w);
             const mask touches = sum.push > real(0.0f);
             b.sums->touches += static_cast<std::uint32_t>(__builtin_popcount(bits_of(touches)));
         }

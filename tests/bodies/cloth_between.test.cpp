@@ -109,6 +109,46 @@ TEST(ClothBetween, does_not_throw_a_body_that_begins_in_it) {
     EXPECT_NEAR(world.body(id).state.place.y, resting_height(0.1f), 0.02f * thickness());
 }
 
+struct Landing {
+    double gained = 0;  ///< the largest rise of its energy above the least before, in parts of that of the fall
+    Body end;
+};
+
+// A box falls on the cloth by 30 cm, turned by these angles. `side`: of the cloth, in particles.
+Landing land(Vec3 degrees, std::uint32_t substeps, std::uint32_t side) {
+    constexpr double gravity = 9.81;
+    constexpr float fall = 0.3f, mass = 6, lowest = 0.2f;
+    World world = make_world({.solver = {.substeps = substeps}});
+    world.add(table_cloth(side));
+    world.add(make_table({0, -0.05f, 0}));
+    Collider box = rubbed(make_box({0.15f, 0.1f, 0.1f}, mass, {0, lowest + fall, -0.1f}));
+    box.pose.rotation = rotation_from_degrees(degrees);
+    const ColliderId id = world.add(std::move(box));
+    Landing landing;
+    double least = mass * gravity * double{lowest + fall};
+    for (int frame = 0; frame < 120; ++frame) {
+        world.step(1.0 / 60);
+        const Body& body = world.body(id);
+        const double energy = kinetic_energy(body.state, body.mass) + mass * gravity * double{body.state.place.y};
+        landing.gained = std::max(landing.gained, (energy - least) / (mass * gravity * double{fall}));
+        least = std::min(least, energy);
+    }
+    landing.end = world.body(id);
+    return landing;
+}
+
+// What bears it is not parallel to what it presses with.
+TEST(ClothBetween, does_not_throw_a_box_that_lands_on_an_edge_or_a_corner) {
+    for (const Vec3 degrees : {Vec3{20, 0, 0}, Vec3{0, 0, 10}, Vec3{20, 30, 10}})
+        for (const std::uint32_t substeps : {10u, 20u, 40u}) {
+            const Landing landing = land(degrees, substeps, 41);
+            EXPECT_LT(landing.gained, 0.3) << degrees.x << ' ' << degrees.z << ' ' << substeps;
+            EXPECT_NEAR(landing.end.state.place.y, resting_height(0.1f), 0.1f * thickness())
+                << degrees.x << ' ' << degrees.z << ' ' << substeps;
+            EXPECT_LT(speed_of(landing.end), 5e-3f) << degrees.x << ' ' << degrees.z << ' ' << substeps;
+        }
+}
+
 // Adds cloth whose edge is pulled over the table at this speed, from 0.25 s on.
 void add_pulled_cloth(World& world, float speed, float way) {
     const auto is_edge = [](Vec3 p) { return p.x > 0.499f; };
@@ -147,7 +187,7 @@ TEST(ClothBetween, takes_boxes_along_when_it_is_pulled_slowly) {
         box.friction = {0.5f, 0.35f};
         const ColliderId id = world.add(std::move(box));
         run(world, 2.25);
-        EXPECT_NEAR(world.body(id).state.place.x + 0.2f, way, 0.15f * way) << mass << " kg";
+        EXPECT_NEAR(world.body(id).state.place.x + 0.2f, way, 0.2f * way) << mass << " kg";
     }
 }
 

@@ -42,25 +42,27 @@ WEFT_FN void project_body_contact(inout_(vec3) x, vec3 start, real w, inout_(Con
 {
     mask moves = w > real(0);
     vec3 lever = x - moved.center;
-    real room = room_before(support, x, normal, body.depenetration);
+    real room = room_before(support, x, start, normal, body.depenetration);
     real by_body = weight_of(moved, lever, normal);
     real share = w / select(moves, w + by_body, real(1));
 
-    // A push of the length dn moves the particle by min(dn + taken, room) along the normal.
+    // A push of the length dn moves the particle by dn along the normal, but only `yielding` of that once it has reached
+    // the support.
     real facing = -dot(normal, support.normal);
     mask held = moves && by_body > real(0) && facing > real(WEFT_LEAST_FACING);
     real lift = select(held, body.depenetration * real(WEFT_SLOW_LIFT), body.depenetration);
     real need = min(real(0), gap_start + lift) - gap;
     real per_normal = real(1) / select(held, facing, real(1));
     real taken = select(held, support.pushed * per_normal, real(0));
-    real against = (need - room) * w / select(held, by_body, real(1));
-    real wanted = (need - taken) * share;
+    real yielding = select(held, yielding_on_support(facing, support.friction), real(1));
+    real wanted = (need - taken * (real(1) - yielding)) * share;
+    real against = (need - room * (real(1) - yielding)) * w / select(held, yielding * w + by_body, real(1));
     real dn = select(moves, max(select(held, max(wanted, against), wanted), -sum.push), real(0));
     // A contact that does not push leaves the support alone.
     held = held && max(sum.push, sum.push + dn) > real(0);
     real taken_now = max(taken + dn - max(room, real(0)), real(0));
     vec3 before = x;
-    x = x + normal * (dn - select(held, taken_now - taken, real(0)));
+    x = x + normal * dn + support.normal * select(held, (taken_now - taken) * facing, real(0));
     sum.push = sum.push + dn;
 
     // Friction of the support, that of the body, and again that of the support: a particle that slides on the support is
@@ -80,13 +82,17 @@ WEFT_FN void project_body_contact(inout_(vec3) x, vec3 start, real w, inout_(Con
     real part = w / select(moves, w + across, real(1));
     real free = min(length_of_slip, max(dot(x - start - support.carried, along), real(0)));
     real rest = length_of_slip - free;
-    real most = rest + max(back.push * support.friction - dot(back.friction, along), real(0));
+    real most = rest + most_on_support(back, support, along);
     real stopped = free * part + min(rest * w / select(held, max(across, real(1e-30)), real(1)), most * part);
     vec3 rubbed = vec3(real(0), real(0), real(0));
     vec3 friction = sum.friction;
     rub_along(rubbed, sum, friction - select(held, along * stopped, slip * part), body);
+    // Where the sides are not parallel, this friction presses the particle on its support, or lifts it.
+    real above = max(room_before(support, x, start, normal, body.depenetration) * facing, real(0));
+    real pressed = max(-dot(support.normal, rubbed) - above, -back.push);
     x = x + rubbed;
-    held_x = x;
+    held_x = x + support.normal * pressed;
+    back.push = back.push + pressed;
     rub_on_support(held_x, back, support, start);
     x = select(held, held_x, x);
     support.pushed = select(held, back.push, support.pushed);

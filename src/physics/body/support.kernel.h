@@ -1,5 +1,5 @@
 // A support holds what is pushed at it, not past it: the least cosine between the push and the support's normal.
-#define WEFT_LEAST_FACING 0.7
+#define WEFT_LEAST_FACING 0.1
 // Overlap of a body with faces, and with particles that have a support, is removed at this part of the speed of other
 // overlap: the body moves, not the cloth, and keeps the velocity.
 #define WEFT_SLOW_LIFT 0.1
@@ -32,14 +32,27 @@ WEFT_FN Support no_support()
     return support;
 }
 
-// m: how far a particle is from its support, along the opposite of `normal`; far if it has none that faces it. Negative
-// inside, where the collider will push it out, but at most by `depenetration`.
-WEFT_FN real room_before(Support support, vec3 x, vec3 normal, real depenetration)
+// m: how far a particle is from where its support holds it, along the opposite of `normal`; far if it has none that faces
+// it. Negative: the collider will push it out. An overlap from before the substep may stay, but for a small part: what the
+// body gains by it, it keeps as velocity.
+//   depenetration   m: it is not less than that, negative
+WEFT_FN real room_before(Support support, vec3 x, vec3 start, vec3 normal, real depenetration)
 {
     real facing = -dot(normal, support.normal);
     mask faces = facing > real(WEFT_LEAST_FACING);
-    real room = (dot(support.normal, x) - support.offset) / select(faces, facing, real(1));
-    return select(faces, max(room, -depenetration), real(1e30));
+    real gap = dot(support.normal, x) - support.offset;
+    real gap_at_start = dot(support.normal, start + support.carried) - support.offset;
+    real room = gap - min(real(0), gap_at_start + depenetration * real(WEFT_SLOW_LIFT));
+    return select(faces, max(room / select(faces, facing, real(1)), -depenetration), real(1e30));
+}
+
+// A push against the support moves the particle by this part of what it would without support. The push of the support and
+// its friction hold the rest: all of it, if the push is within the cone of friction.
+//   facing   cosine of the angle between the push and the opposite of the support's normal, > 0
+WEFT_FN real yielding_on_support(real facing, real friction)
+{
+    real aside = sqrt(max(real(1) - facing * facing, real(0)));
+    return aside * max(aside - friction * facing, real(0));
 }
 
 // The coefficient of friction on the support in a substep. A particle that slid on it keeps sliding until friction stops
@@ -74,6 +87,21 @@ WEFT_FN void rub_on_support(inout_(vec3) x, inout_(ContactSum) back, Support sup
     behind.kinetic_friction = support.friction;
     vec3 way = x - start - support.carried;
     rub_along(x, back, back.friction - (way - support.normal * dot(way, support.normal)), behind);
+}
+
+// m: so far can a displacement against `along`, unit, grow until the friction of the support no longer holds it.
+WEFT_FN real most_on_support(ContactSum back, Support support, vec3 along)
+{
+    // |friction + s across|² = hold² (push + s down)²
+    real down = dot(along, support.normal), hold = support.friction * support.friction;
+    vec3 across = along - support.normal * down;
+    real a = dot(across, across) - hold * down * down;
+    real b = dot(back.friction, across) - hold * back.push * down;
+    real c = min(dot(back.friction, back.friction) - hold * back.push * back.push, real(0));
+    real under = b * b - a * c, root = sqrt(max(under, real(0)));
+    mask opens = b < real(0), never = select(opens, a - real(1e-6), under) < real(0);
+    real last = select(opens, root - b, -c) / select(opens, max(a, real(1e-6)), max(b + root, real(1e-30)));
+    return select(never, real(1e6), last);
 }
 
 // What the collider has taken counts as its own push, so its friction can be as large. Returns it, as a displacement.

@@ -54,10 +54,10 @@ Support find_support(uint p, vec3 x, uvec2 slots)
 }
 
 // m, at most 0: how far the support will push the particle toward the body.
-float inside_support(Support support, NearBody near, vec3 x)
+float inside_support(Support support, NearBody near, vec3 x, vec3 start)
 {
     vec3 normal = rotate(near.body.rx, near.body.ry, near.body.rz, near.normal);
-    return min(room_before(support, x, normal, near.body.depenetration), 0.0);
+    return min(room_before(support, x, start, normal, near.body.depenetration), 0.0);
 }
 
 // How many particles touch each body.
@@ -74,7 +74,7 @@ void run_count_touches(uint p)
     for (uint slot = slots.x; slot < slots.y; ++slot) {
         if (!holds_body(slot)) continue;
         NearBody near = near_body(slot, p, x.xyz, start);
-        float inside = inside_support(support, near, x.xyz);
+        float inside = inside_support(support, near, x.xyz, start);
         if (!may_touch(near.gap + inside, none, near.way, near.solid, near.body)) continue;
         ContactPlane plane =
             contact_plane(near.solid, near.body, none, near.local, near.local_at_start, near.gap, near.normal);
@@ -95,14 +95,14 @@ bool touch_body_of(uint slot, uint p, inout vec4 x, vec3 start, inout Support su
     }
     vec4 before = x;
     vec3 undone = vec3(0.0);
-    float inside = inside_support(support, near, x.xyz);
+    float inside = inside_support(support, near, x.xyz, start);
     bool touches = may_touch(near.gap + inside, sum, near.way, near.solid, near.body);
     if (touches) {
         contact_moved_body(near.solid, near.body, moved_body(contact_args.at.colliders.at.bodies, body), x.xyz, start,
                            x.w, sum, near.local, near.local_at_start, near.gap, near.normal, support, undone);
         vec3 by = (x.xyz - before.xyz) + undone;
         if (dot(by, by) > 0.0 && feels_cloth(contact_args.at.colliders.at.bodies, body))
-            add_to_body(contact_args.at.colliders.at.bodies, body, by, x.xyz, x.w);
+            add_to_body(contact_args.at.colliders.at.bodies, body, by, before.xyz, x.w);
         if (sum.push > 0.0) add_touch(contact_args.at.colliders.at.bodies, body);
     }
     if (!is_none(uvec2(contact_args.at.contact_log))) trace(at, touches, before.xyz - undone, x, near.body.position, p);
