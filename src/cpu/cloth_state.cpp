@@ -267,7 +267,7 @@ SupportView ClothState::support_view() {
     if (supports.empty()) return {};
     const std::size_t stride = supports.size() / support_arrays;
     const auto array = [&](std::size_t number) { return &supports[number * stride].x; };
-    return {array(0), array(1), array(2), array(3)};
+    return {array(0), array(1), array(2), array(3), array(4)};
 }
 
 void ClothState::clear_supports(Range particles) {

@@ -95,12 +95,18 @@ WEFT_FN Support load_support(const SupportView& view, std::size_t i) {
     support.rubbed = load_blocks_unordered(view.taken + 4 * i, support.pushed);
     support.carried = load_blocks_unordered(view.carried + 4 * i, support.collider);
     real unused;
-    support.friction = load_blocks_unordered(view.friction + 4 * i, unused).x;
+    const vec3 friction = load_blocks_unordered(view.friction + 4 * i, unused);
+    support.friction = friction.x, support.presser = friction.y;
+    support.seen = load_blocks_unordered(view.seen + 4 * i, support.height);
     return support;
 }
 
-WEFT_FN void store_taken(const Support& support, const SupportView& view, std::size_t i) {
-    if (view.plane) store_blocks_unordered(support.rubbed, support.pushed, view.taken + 4 * i);
+// What bodies change.
+WEFT_FN void store_pressed(const Support& support, const SupportView& view, std::size_t i) {
+    if (!view.plane) return;
+    store_blocks_unordered(support.rubbed, support.pushed, view.taken + 4 * i);
+    store_blocks_unordered(vec3(support.friction, support.presser, real(0.0f)), real(0.0f), view.friction + 4 * i);
+    store_blocks_unordered(support.seen, support.height, view.seen + 4 * i);
 }
 
 // Adds to the push of a collider what it has taken from bodies. Returns it, as a displacement.
@@ -130,7 +136,7 @@ inline void find_support_pass(const ParticleView& p, const ContactView& c, Range
                    real(c.number), carried);
         store_blocks_unordered(support.normal, support.offset, c.support.plane + 4 * i);
         store_blocks_unordered(support.carried, support.collider, c.support.carried + 4 * i);
-        store_blocks_unordered(vec3(support.friction), real(0.0f), c.support.friction + 4 * i);
+        store_blocks_unordered(vec3(support.friction, real(0.0f), real(0.0f)), real(0.0f), c.support.friction + 4 * i);
     }
 }
 
@@ -257,9 +263,9 @@ inline void touch_body_pass(const ParticleView& p, const ContactView& c, const B
         const real inside = inside_support(support, body, lane);
         if (any(may_touch(lane.gap + inside, sum, lane.way, solid, body))) {
             vec3 undone;
-            contact_moved_body(solid, body, moved, lane.x, lane.start, lane.w, sum, lane.local, lane.local_at_start,
+            contact_moved_body(solid, body, moved, real(c.number), lane.x, lane.start, lane.w, sum, lane.local, lane.local_at_start,
                                lane.gap, lane.normal, support, undone);
-            store_taken(support, c.support, i);
+            store_pressed(support, c.support, i);
             store_blocks_unordered(lane.x, lane.w, p.position + 4 * i);
             if (c.moved) trace_pass(c, i, at, before - undone, lane.x, lane.w);
             if (b.moved) add_to_body(b, (lane.x - before) + undone, before, lane.w);

@@ -61,13 +61,14 @@ struct CouplingView {
 
 /// What lies behind each particle that bodies may press on a collider: a Support, as arrays of blocks of four.
 struct SupportView {
-    float* plane = nullptr;    ///< normal, offset; nullptr without bodies or colliders
-    float* taken = nullptr;    ///< displacement by friction, along the normal
-    float* carried = nullptr;  ///< by the collider; its number
-    float* friction = nullptr;
+    float* plane = nullptr;     ///< normal, offset; nullptr without bodies or colliders
+    float* taken = nullptr;     ///< displacement by friction, along the normal
+    float* carried = nullptr;   ///< by the collider; its number
+    float* friction = nullptr;  ///< of the pair, presser
+    float* seen = nullptr;      ///< and height
 };
 
-inline constexpr std::size_t support_arrays = 4;
+inline constexpr std::size_t support_arrays = 5;
 
 /// How thick a cloth is.
 struct ThicknessView {

@@ -344,8 +344,8 @@ struct ContactArgs {
     Uints slots;  // colliders
     Uints report;
     Uints face_sums;  // FaceContactArgs::sums; 0 without contact of faces
-    Vec4s supports;   // [WEFT_SUPPORT_BLOCKS · particle]: normal, offset; rubbed, pushed; carried, collider; friction.
-                      // 0 without bodies
+    Vec4s supports;   // [WEFT_SUPPORT_BLOCKS · particle]: normal, offset; rubbed, pushed; carried, collider; friction,
+                      // presser; seen, height. 0 without bodies
     uint count;
     uint capacity;  // slots
     uint substep;
@@ -356,7 +356,7 @@ struct ContactArgs {
 
 // The first pass of contact in a substep. In the first substep of a frame the lists begin with it.
 #define WEFT_CONTACT_BEGINS 1u
-#define WEFT_SUPPORT_BLOCKS 4u  // of a Support
+#define WEFT_SUPPORT_BLOCKS 5u  // of a Support
 #define WEFT_CONTACT_BODIES 2u  // the world has bodies
 #define WEFT_CONTACT_KEEPS_MARKS 4u  // passes before have marked particles whose faces may touch
 

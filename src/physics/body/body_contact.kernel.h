@@ -42,37 +42,35 @@ WEFT_FN void project_body_contact(inout_(vec3) x, vec3 start, real w, inout_(Con
 {
     mask moves = w > real(0);
     vec3 lever = x - moved.center;
-    real room = room_before(support, x, start, normal, body.depenetration);
     real by_body = weight_of(moved, lever, normal);
     real share = w / select(moves, w + by_body, real(1));
 
     // A push of the length dn moves the particle by dn along the normal, but only `yielding` of that once it has reached
     // the support.
     real facing = -dot(normal, support.normal);
-    mask held = moves && by_body > real(0) && facing > real(WEFT_LEAST_FACING);
-    real lift = select(held, body.depenetration * real(WEFT_SLOW_LIFT), body.depenetration);
+    mask may_hold = moves && by_body > real(0) && dot(support.normal, support.normal) > real(0);
+    mask faces = may_hold && facing > real(WEFT_LEAST_FACING);
+    real lift = select(faces, body.depenetration * real(WEFT_SLOW_LIFT), body.depenetration);
     real need = min(real(0), gap_start + lift) - gap;
-    real per_normal = real(1) / select(held, facing, real(1));
-    real taken = select(held, support.pushed * per_normal, real(0));
-    real yielding = select(held, yielding_on_support(facing, support.friction), real(1));
-    real wanted = (need - taken * (real(1) - yielding)) * share;
-    real against = (need - room * (real(1) - yielding)) * w / select(held, yielding * w + by_body, real(1));
-    real dn = select(moves, max(select(held, max(wanted, against), wanted), -sum.push), real(0));
+    real room = room_before(support, x, start, normal, body.depenetration);
+    real taken = support.pushed / select(faces, facing, real(1));
+    real firm = real(1) - yielding_on_support(facing, support.friction);
+    real wanted = (need - select(faces, taken * firm, real(0))) * share;
+    real against = (need - room * firm) * w / select(faces, (real(1) - firm) * w + by_body, real(1));
+    real dn = select(moves, max(select(faces, max(wanted, against), wanted), -sum.push), real(0));
     // A contact that does not push leaves the support alone.
-    held = held && max(sum.push, sum.push + dn) > real(0);
-    real taken_now = max(taken + dn - max(room, real(0)), real(0));
-    vec3 before = x;
-    x = x + normal * dn + support.normal * select(held, (taken_now - taken) * facing, real(0));
+    mask held = may_hold && max(sum.push, sum.push + dn) > real(0);
     sum.push = sum.push + dn;
 
     // Friction of the support, that of the body, and again that of the support: a particle that slides on the support is
     // stopped by the body alone, one that rests there is held by both.
+    vec3 before = x;
     ContactSum back;
-    back.push = taken_now * facing;
+    back.push = support.pushed;
     back.friction = support.rubbed;
-    vec3 held_x = x;
-    rub_on_support(held_x, back, support, start);
-    x = select(held, held_x, x);
+    real over = height_over(support, x, start, body.depenetration);
+    move_on_support(x, back, support, start, over, normal * dn);
+    x = select(held, x, before + normal * dn);
 
     vec3 way = x - start - carried;
     vec3 slip = way - normal * dot(way, normal);
@@ -87,28 +85,26 @@ WEFT_FN void project_body_contact(inout_(vec3) x, vec3 start, real w, inout_(Con
     vec3 rubbed = vec3(real(0), real(0), real(0));
     vec3 friction = sum.friction;
     rub_along(rubbed, sum, friction - select(held, along * stopped, slip * part), body);
-    // Where the sides are not parallel, this friction presses the particle on its support, or lifts it.
-    real above = max(room_before(support, x, start, normal, body.depenetration) * facing, real(0));
-    real pressed = max(-dot(support.normal, rubbed) - above, -back.push);
-    x = x + rubbed;
-    held_x = x + support.normal * pressed;
-    back.push = back.push + pressed;
-    rub_on_support(held_x, back, support, start);
-    x = select(held, held_x, x);
+    vec3 held_x = x;
+    move_on_support(held_x, back, support, start, height_over(support, x, start, body.depenetration), rubbed);
+    x = select(held, held_x, x + rubbed);
     support.pushed = select(held, back.push, support.pushed);
     support.rubbed = select(held, back.friction, support.rubbed);
     undone = select(held, (normal * dn + rubbed) - (x - before), vec3(real(0)));
 }
 
 // contact_particle() for a body that is moved.
-WEFT_FN void contact_moved_body(Solid solid, ContactBody body, MovedBody moved, inout_(vec3) x, vec3 start, real w,
-                                inout_(ContactSum) sum, vec3 local, vec3 local_at_start, real gap, vec3 normal,
+//   number   of the body
+WEFT_FN void contact_moved_body(Solid solid, ContactBody body, MovedBody moved, real number, inout_(vec3) x, vec3 start,
+                                real w, inout_(ContactSum) sum, vec3 local, vec3 local_at_start, real gap, vec3 normal,
                                 inout_(Support) support, out_(vec3) undone)
 {
     ContactPlane plane = contact_plane(solid, body, sum, local, local_at_start, gap, normal);
-    project_body_contact(x, start, w, sum, plane.gap, plane.gap_at_start,
-                         rotate(body.rx, body.ry, body.rz, plane.normal), carried_by(body, local), body, moved, support,
-                         undone);
+    vec3 carried = carried_by(body, local), out_of = rotate(body.rx, body.ry, body.rz, plane.normal);
+    real gap_to = plane.gap, inside = min(room_before(support, x, start, out_of, body.depenetration), real(0));
+    mask presses = w > real(0) && (sum.push > real(0) || gap_to + inside < real(0));
+    keep_plane(support, number, x - start - carried, presses, gap_to, out_of);
+    project_body_contact(x, start, w, sum, gap_to, plane.gap_at_start, out_of, carried, body, moved, support, undone);
     keep_out(solid, body, x, w, plane);
 }
 

@@ -17,6 +17,9 @@ struct Support {
     vec3 carried;   // m: how far the collider itself moves there in the substep
     real collider;  // its number
     real friction;  // static, of the pair
+    real presser;   // number of the first body that presses on the particle in the substep, plus one; 0: none
+    vec3 seen;      // world: normal of the plane of that body that the particle met then
+    real height;    // m: the particle touches this plane where dot(seen, its way relative to the body) is -height
 };
 
 WEFT_FN Support no_support()
@@ -29,21 +32,29 @@ WEFT_FN Support no_support()
     support.carried = support.normal;
     support.collider = real(-1);
     support.friction = real(0);
+    support.presser = real(0);
+    support.seen = support.normal;
+    support.height = real(0);
     return support;
 }
 
-// m: how far a particle is from where its support holds it, along the opposite of `normal`; far if it has none that faces
-// it. Negative: the collider will push it out. An overlap from before the substep may stay, but for a small part: what the
-// body gains by it, it keeps as velocity.
+// m: how far a particle is from where its support holds it. Negative: the collider will push it out. An overlap from before
+// the substep may stay, but for a small part: what the body gains by it, it keeps as velocity.
+WEFT_FN real height_over(Support support, vec3 x, vec3 start, real depenetration)
+{
+    real gap_at_start = dot(support.normal, start + support.carried) - support.offset;
+    return dot(support.normal, x) - support.offset -
+           min(real(0), gap_at_start + depenetration * real(WEFT_SLOW_LIFT));
+}
+
+// m: the same along the opposite of `normal`; far if no support faces it.
 //   depenetration   m: it is not less than that, negative
 WEFT_FN real room_before(Support support, vec3 x, vec3 start, vec3 normal, real depenetration)
 {
     real facing = -dot(normal, support.normal);
     mask faces = facing > real(WEFT_LEAST_FACING);
-    real gap = dot(support.normal, x) - support.offset;
-    real gap_at_start = dot(support.normal, start + support.carried) - support.offset;
-    real room = gap - min(real(0), gap_at_start + depenetration * real(WEFT_SLOW_LIFT));
-    return select(faces, max(room / select(faces, facing, real(1)), -depenetration), real(1e30));
+    real room = height_over(support, x, start, depenetration) / select(faces, facing, real(1));
+    return select(faces, max(room, -depenetration), real(1e30));
 }
 
 // A push against the support moves the particle by this part of what it would without support. The push of the support and
@@ -79,9 +90,33 @@ WEFT_FN void support_by(inout_(Support) support, vec3 x, real gap, vec3 normal, 
     support.friction = select(better, friction, support.friction);
 }
 
-// Friction of the support alone, as far as what it has taken allows.
-WEFT_FN void rub_on_support(inout_(vec3) x, inout_(ContactSum) back, Support support, vec3 start)
+// What a particle hands on to its support would move it by meters if nothing held it. So a later sweep must take it back
+// along the normal along which it was given, also at a corner of the body, where a tenth of a millimeter may turn the normal
+// by a right angle. The particle keeps the plane that it met first in the substep.
+//   way      m: of the particle relative to the body, since the start of the substep
+//   number   of the body
+//   presses  whether the contact has pushed, or is going to
+WEFT_FN void keep_plane(inout_(Support) support, real number, vec3 way, mask presses, inout_(real) gap,
+                        inout_(vec3) normal)
 {
+    mask supported = presses && dot(support.normal, support.normal) > real(0);
+    mask first = supported && support.presser < real(0.5);
+    support.presser = select(first, number + real(1), support.presser);
+    support.seen = select(first, normal, support.seen);
+    support.height = select(first, gap - dot(normal, way), support.height);
+    mask mine = supported && abs(support.presser - number - real(1)) < real(0.5);
+    gap = select(mine, support.height + dot(support.seen, way), gap);
+    normal = select(mine, support.seen, normal);
+}
+
+// Moves a particle that its support holds: what would take it into the support presses on that, what lifts it relieves
+// that, and then friction of the support acts, as far as what it has taken allows.
+//   over     m: height_over() before
+WEFT_FN void move_on_support(inout_(vec3) x, inout_(ContactSum) back, Support support, vec3 start, real over, vec3 by)
+{
+    real pressed = max(-dot(support.normal, by) - max(over, real(0)), -back.push);
+    x = x + by + support.normal * pressed;
+    back.push = back.push + pressed;
     ContactBody behind;
     behind.static_friction = support.friction;
     behind.kinetic_friction = support.friction;

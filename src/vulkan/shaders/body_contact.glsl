@@ -98,8 +98,9 @@ bool touch_body_of(uint slot, uint p, inout vec4 x, vec3 start, inout Support su
     float inside = inside_support(support, near, x.xyz, start);
     bool touches = may_touch(near.gap + inside, sum, near.way, near.solid, near.body);
     if (touches) {
-        contact_moved_body(near.solid, near.body, moved_body(contact_args.at.colliders.at.bodies, body), x.xyz, start,
-                           x.w, sum, near.local, near.local_at_start, near.gap, near.normal, support, undone);
+        contact_moved_body(near.solid, near.body, moved_body(contact_args.at.colliders.at.bodies, body),
+                           float(contact_args.at.slots.at[slot]), x.xyz, start, x.w, sum, near.local,
+                           near.local_at_start, near.gap, near.normal, support, undone);
         vec3 by = (x.xyz - before.xyz) + undone;
         if (dot(by, by) > 0.0 && feels_cloth(contact_args.at.colliders.at.bodies, body))
             add_to_body(contact_args.at.colliders.at.bodies, body, by, before.xyz, x.w);
@@ -123,7 +124,7 @@ void run_touch_bodies(uint p)
         bool marks = touch_body_of(slot, p, x, start, support);
         near = near || marks;
     }
-    if (presses) store_taken(p, support);
+    if (presses) store_pressed(p, support);
     store_point(contact_args.at.position, p, x);
     // The count has begun the marks of the first sweep.
     mark_faces(p, near, contact_args.at.first_iteration == 1u);

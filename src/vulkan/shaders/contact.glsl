@@ -54,19 +54,27 @@ Support load_support(uint p)
     vec4 plane = contact_args.at.supports.at[WEFT_SUPPORT_BLOCKS * p],
          taken = contact_args.at.supports.at[WEFT_SUPPORT_BLOCKS * p + 1u],
          carried = contact_args.at.supports.at[WEFT_SUPPORT_BLOCKS * p + 2u],
-         friction = contact_args.at.supports.at[WEFT_SUPPORT_BLOCKS * p + 3u];
-    return Support(plane.xyz, plane.w, taken.xyz, taken.w, carried.xyz, carried.w, friction.x);
+         friction = contact_args.at.supports.at[WEFT_SUPPORT_BLOCKS * p + 3u],
+         seen = contact_args.at.supports.at[WEFT_SUPPORT_BLOCKS * p + 4u];
+    return Support(plane.xyz, plane.w, taken.xyz, taken.w, carried.xyz, carried.w, friction.x, friction.y, seen.xyz,
+                   seen.w);
 }
 void store_taken(uint p, Support support)
 {
     contact_args.at.supports.at[WEFT_SUPPORT_BLOCKS * p + 1u] = vec4(support.rubbed, support.pushed);
 }
+// What bodies change.
+void store_pressed(uint p, Support support)
+{
+    store_taken(p, support);
+    contact_args.at.supports.at[WEFT_SUPPORT_BLOCKS * p + 3u] = vec4(support.friction, support.presser, 0.0, 0.0);
+    contact_args.at.supports.at[WEFT_SUPPORT_BLOCKS * p + 4u] = vec4(support.seen, support.height);
+}
 void store_support(uint p, Support support)
 {
     contact_args.at.supports.at[WEFT_SUPPORT_BLOCKS * p] = vec4(support.normal, support.offset);
     contact_args.at.supports.at[WEFT_SUPPORT_BLOCKS * p + 2u] = vec4(support.carried, support.collider);
-    contact_args.at.supports.at[WEFT_SUPPORT_BLOCKS * p + 3u] = vec4(support.friction, 0.0, 0.0, 0.0);
-    store_taken(p, support);
+    store_pressed(p, support);
 }
 
 // Whether the slot holds a body.
