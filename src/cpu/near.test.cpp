@@ -90,7 +90,7 @@ TEST_P(Near, particles_that_are_left_out_would_not_be_touched) {
             const bool pressed = trial % 3 == 0;
             const float widest = trial % 2 ? in(0.001f, 0.1f) : -static_cast<float>(far_away);
             AlignedVector<Vec4> sums(point_count), plane(point_count), taken(point_count), carried(point_count),
-                friction(point_count);
+                friction(point_count), seen(point_count);
             std::vector<std::uint8_t> marks(point_count, 0);
             for (Vec4& support : plane) {
                 const Vec3 normal = normalized(vector(1));
@@ -99,7 +99,7 @@ TEST_P(Near, particles_that_are_left_out_would_not_be_touched) {
             ContactView contact = contact_view(collider, one);
             contact.sums = &sums[0].x, contact.near_faces = marks.data();
             contact.nearest = 0.5f * half_thickness, contact.widest = widest;
-            if (pressed) contact.support = {&plane[0].x, &taken[0].x, &carried[0].x, &friction[0].x};
+            if (pressed) contact.support = {&plane[0].x, &taken[0].x, &carried[0].x, &friction[0].x, &seen[0].x};
 
             const MovingBall ball = moving_ball(collider, ball_radius(collider), one.before, one.now, widest);
             const std::uint32_t number = 0;

@@ -143,7 +143,9 @@ WEFT_FN real most_on_support(ContactSum back, Support support, vec3 along)
 WEFT_FN vec3 take_support(inout_(ContactSum) sum, inout_(ContactBody) body, Support support, real collider)
 {
     mask mine = dot(support.normal, support.normal) > real(0) && abs(support.collider - collider) < real(0.5);
+    // Both: what the support has held up to its limit must not slip back to kinetic friction now.
     body.static_friction = select(mine, support.friction, body.static_friction);
+    body.kinetic_friction = select(mine, support.friction, body.kinetic_friction);
     real pushed = select(mine, support.pushed, real(0));
     vec3 rubbed = select(mine, support.rubbed, vec3(real(0), real(0), real(0)));
     sum.push = sum.push + pushed;
