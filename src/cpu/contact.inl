@@ -263,8 +263,8 @@ inline void touch_body_pass(const ParticleView& p, const ContactView& c, const B
         const real inside = inside_support(support, body, lane);
         if (any(may_touch(lane.gap + inside, sum, lane.way, solid, body))) {
             vec3 undone;
-            contact_moved_body(solid, body, moved, real(c.number), lane.x, lane.start, lane.w, sum, lane.local, lane.local_at_start,
-                               lane.gap, lane.normal, support, undone);
+            contact_moved_body(solid, body, moved, real(c.number), lane.x, lane.start, lane.w, sum, lane.local,
+                               lane.local_at_start, lane.gap, lane.normal, support, undone);
             store_pressed(support, c.support, i);
             store_blocks_unordered(lane.x, lane.w, p.position + 4 * i);
             if (c.moved) trace_pass(c, i, at, before - undone, lane.x, lane.w);

@@ -16,7 +16,7 @@ struct Support {
     real pushed;    // m: displacement along the normal, likewise
     vec3 carried;   // m: how far the collider itself moves there in the substep
     real collider;  // its number
-    real friction;  // static, of the pair
+    real friction;  // of the pair: static, or kinetic if the particle slides
     real presser;   // number of the first body that presses on the particle in the substep, plus one; 0: none
     vec3 seen;      // world: normal of the plane of that body that the particle met then
     real height;    // m: the particle touches this plane where dot(seen, its way relative to the body) is -height
