@@ -449,7 +449,8 @@ inline void weigh_taut_pass(const ParticleView& p, const RowView& rows, Range ra
         for (int k = 0; k < 2; ++k) {
             TautSum sum;
             sum.moved = gather_blocks(taut, index[k], sum.mass);
-            scatter_blocks(sum.moved + moved[1 - k] * mass, sum.mass + mass, taut, index[k]);
+            sum = add_taut_edge(sum, mass, moved[0], moved[1]);
+            scatter_blocks(sum.moved, sum.mass, taut, index[k]);
         }
     }
 }

@@ -3,21 +3,32 @@
 // Edges add at most this many times its mass to a particle.
 #define WEFT_TAUT_MOST 256.0
 
+// With 1, waves of two edges' length would change sign in every substep and not decay.
+#define WEFT_TAUT_MASS 1.5
+
 // What the edges of a particle add to it.
 struct TautSum {
-    vec3 moved;  // kg m, masses times how far the other ends move
+    vec3 moved;  // kg m, masses times how far the middles of the edges move
     real mass;   // kg
 };
 
-// kg: the mass that an edge adds to its ends, T h²/rest. Lambda of the substep before is -T h².
+// kg: the mass that an edge adds to each of its ends, in proportion to T h²/rest. Lambda of the substep before is -T h².
 WEFT_FN real taut_mass(StretchRow row, real lambda)
 {
     mask taut = lambda < real(0) && row.rest > real(0);
-    return select(taut, -lambda / max(row.rest, real(1e-30)), real(0));
+    return select(taut, lambda * real(-WEFT_TAUT_MASS) / max(row.rest, real(1e-30)), real(0));
 }
 
-// Adds its edges' mass to a particle. It moves with the other ends of the edges, by their velocities before the substep:
-// neither gravity nor air moves it.
+// Adds an edge to the sum of one of its ends. The mass moves with the middle of the edge, by the velocities of its ends
+// before the substep: neither gravity nor air moves it.
+WEFT_FN TautSum add_taut_edge(TautSum sum, real mass, vec3 a_moves, vec3 b_moves)
+{
+    sum.moved = sum.moved + (a_moves + b_moves) * (mass * real(0.5));
+    sum.mass = sum.mass + mass;
+    return sum;
+}
+
+// Adds its edges' mass to a particle.
 WEFT_FN void take_taut_mass(inout_(vec3) x, inout_(real) w, vec3 start, TautSum sum)
 {
     real ratio = min(w * sum.mass, real(WEFT_TAUT_MOST));

@@ -199,8 +199,9 @@ void weigh_taut_row(uint r)
     }
     float mass = taut_mass(load_stretch(r), row_args.at.lambda.at[r]);
     for (uint k = 0u; k < 2u; ++k) {
-        vec4 sum = row_args.at.corrections.at[p[k]];
-        row_args.at.corrections.at[p[k]] = vec4(sum.xyz + moved[1u - k] * mass, sum.w + mass);
+        vec4 before = row_args.at.corrections.at[p[k]];
+        TautSum sum = add_taut_edge(TautSum(before.xyz, before.w), mass, moved[0], moved[1]);
+        row_args.at.corrections.at[p[k]] = vec4(sum.moved, sum.mass);
     }
 }
 
