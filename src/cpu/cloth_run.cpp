@@ -252,6 +252,38 @@ void ClothRun::run_corrections(const Pass& pass, std::uint32_t substep, Worker w
         as_range(worker.of(model().table(pass.constraint).stride)), numbers_.h, use_of_lambda(pass, substep));
 }
 
+// Calls visit(node, position of its particle) for the nodes in this range that are pinned, if any is attached to a
+// body.
+template <class Visit>
+void ClothRun::for_each_pinned(const CoarseLevel& level, Range mine, Visit&& visit) const {
+    if (!planned_.attached) return;
+    const std::span<Vec4> positions = cloth_.now().position;
+    for (auto it = std::ranges::lower_bound(level.pinned, mine.begin); it != level.pinned.end() && *it < mine.end; ++it)
+        visit(*it, positions[level.particle[*it]]);
+}
+
+// Attached points have masses in the level, and begin where coarser levels have moved them.
+void ClothRun::take_attached(std::uint32_t level, Range mine) const {
+    LevelState& state = cloth_.levels[level];
+    for_each_pinned(model().hierarchy[level], mine, [&](std::uint32_t node, const Vec4& particle) {
+        if (!(particle.w < 0)) return;
+        state.origin[node] = {particle.x, particle.y, particle.z, 0};
+        state.position[node] = {particle.x, particle.y, particle.z, -particle.w};
+    });
+}
+
+// The particle moves as far as its node. Nodes near it do not: its mass is that of the body, not of cloth.
+void ClothRun::give_attached(std::uint32_t level, Range mine) const {
+    LevelState& state = cloth_.levels[level];
+    for_each_pinned(model().hierarchy[level], mine, [&](std::uint32_t node, Vec4& particle) {
+        const Vec4& position = state.position[node];
+        if (!(position.w > 0)) return;
+        particle = {position.x, position.y, position.z, particle.w};
+        state.origin[node] = position;
+        if (!state.remainder.empty()) state.remainder[node] = {};
+    });
+}
+
 void ClothRun::run_level(const IslandPass& island_pass, std::uint32_t substep, Worker worker) const {
     const Pass& pass = island_pass.pass;
     const bool single = island_pass.single;
@@ -260,11 +292,16 @@ void ClothRun::run_level(const IslandPass& island_pass, std::uint32_t substep, W
     const Worker sharing = single ? Worker{} : worker;
     if (pass.kind != PassKind::coarse_limit) {
         const Range mine = as_range(sharing.of(padded(level.count)));
-        const LevelView nodes = cloth_.level(pass.level);
-        if (pass.kind == PassKind::interpolation)
-            return passes_.interpolation(nodes, cloth_.prolongation_to_level(pass.level), mine);
-        if (pass.kind == PassKind::node_correction) return passes_.node_correction(nodes, mine);
-        const float* finer = pass.level == 0 ? view_.position : cloth_.level(pass.level - 1).origin;
+        const LevelView nodes = cloth_.level(pass.level, plan_.weighs_taut);
+        if (pass.kind == PassKind::interpolation) {
+            passes_.interpolation(nodes, cloth_.prolongation_to_level(pass.level), mine);
+            return take_attached(pass.level, mine);
+        }
+        if (pass.kind == PassKind::node_correction) {
+            give_attached(pass.level, mine);
+            return passes_.node_correction(nodes, mine);
+        }
+        const float* finer = pass.level == 0 ? view_.position : &cloth_.levels[pass.level - 1].origin[0].x;
         return passes_.restriction(finer, nodes, mine);
     }
     const Batch& batch = level.limits.batches[pass.batch];
@@ -320,7 +357,8 @@ void ClothRun::run_attached(const Pass& pass, Range mine, Worker worker) const {
         const Vec3 place = to_world(bodies_.placed(body), target.local);
         if (pass.kind == PassKind::weigh_attached) {
             const scalar::MovedBody moved = bodies_.moved_by_attached(body);
-            position.w = most_weight_of(moved, scalar::vector_of(place) - moved.center);
+            const float weight = most_weight_of(moved, scalar::vector_of(place) - moved.center);
+            position.w = pass.batch == weigh_for_levels ? -weight : weight;
             return;
         }
         const Vec3 by = position.xyz() - place;

@@ -69,6 +69,10 @@ class ClothRun {
     void run_lines(const Pass& pass, std::uint32_t substep, Worker worker) const;
     void run_blocks(const Pass& pass, std::uint32_t substep, std::span<const LineBlock> blocks, Worker worker) const;
     void run_corrections(const Pass& pass, std::uint32_t substep, Worker worker) const;
+    template <class Visit>
+    void for_each_pinned(const CoarseLevel& level, Range mine, Visit&& visit) const;
+    void take_attached(std::uint32_t level, Range mine) const;
+    void give_attached(std::uint32_t level, Range mine) const;
     void run_level(const IslandPass& island_pass, std::uint32_t substep, Worker worker) const;
     void run_faces(const Pass& pass, Worker worker) const;
     template <class Visit>

@@ -281,13 +281,20 @@ void ClothState::clear_taken(Range particles) {
     std::fill(taken + particles.begin, taken + particles.end, Vec4{});
 }
 
-LevelView ClothState::level(std::uint32_t i) {
+LevelView ClothState::level(std::uint32_t i, bool heavy) {
     LevelState& state = levels[i];
-    const Restriction& from = model->hierarchy[i].restriction;
-    return {&state.position[0].x,     &state.origin[0].x,
-            &state.displacement[0].x, state.remainder.empty() ? nullptr : &state.remainder[0].x,
-            from.begin.data(),        from.node.data(),
-            from.weight.data()};
+    const CoarseLevel& level = model->hierarchy[i];
+    const Restriction& from = level.restriction;
+    return {&state.position[0].x,
+            &state.origin[0].x,
+            &state.displacement[0].x,
+            state.remainder.empty() ? nullptr : &state.remainder[0].x,
+            from.begin.data(),
+            from.node.data(),
+            from.weight.data(),
+            level.weight.data(),
+            heavy && i == 0 ? weights().data() : nullptr,
+            heavy};
 }
 
 // The loops over constraints treat the nodes of a level as particles.
@@ -380,7 +387,6 @@ void ClothState::prepare(const WorldPlan& plan, std::size_t colliders, unsigned 
             state.origin.resize(coarse.capacity());
             state.displacement.resize(coarse.capacity());
             state.lambda.resize(coarse.limits.stride);
-            for (std::uint32_t node = 0; node < coarse.count; ++node) state.position[node].w = coarse.weight[node];
         }
     }
     for (std::size_t i = 0; i < levels.size(); ++i)

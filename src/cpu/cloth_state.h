@@ -96,7 +96,8 @@ struct ClothState {
     SupportView support_view();
     void clear_supports(Range particles);
     void clear_taken(Range particles);  ///< what colliders have taken has been added to their pushes
-    LevelView level(std::uint32_t i);
+    /// `heavy`: taut edges make the particles heavier.
+    LevelView level(std::uint32_t i, bool heavy);
     ParticleView level_particles(std::uint32_t i);
     RowView level_rows(std::uint32_t i);
     /// From level i + 1 to level i.

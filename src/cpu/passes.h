@@ -200,11 +200,14 @@ struct GatherView {
 /// One coarse level. Blocks of four floats per node.
 struct LevelView {
     float* position;                     ///< w: inverse mass
-    float* origin;                       ///< weighted mean of the finer positions it represents
+    float* origin;                       ///< weighted mean of the finer positions it represents; w: see `heavy`
     float* displacement;                 ///< correction by this level and the coarser ones
     float* remainder;                    ///< as in ParticleView
     const std::uint32_t *begin, *finer;  ///< as Restriction has them: begin and node
     const float* weight;                 ///< likewise
+    const float* node_weight;            ///< 1/kg, without what taut edges add to the particles
+    const float* particle_weight;        ///< likewise, of the particles, if `heavy`; nullptr on coarser levels
+    bool heavy;                          ///< taut edges add masses; w of an origin is the node's mass_ratio()
 };
 
 /// From a level's displacements to nodes of the finer one, or to particles.

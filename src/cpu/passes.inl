@@ -345,24 +345,37 @@ WEFT_FN vec3 interpolated(const ProlongationView& prolongation, std::size_t i) {
     return prolongation.narrow ? interpolated(prolongation, prolongation.narrow, i) : interpolated(prolongation, prolongation.wide, i);
 }
 
-inline void restriction_pass(const float* finer, const LevelView& level, Range range) {
+// `Heavy`: taut edges have made the particles heavier. The w of a finer node is then its ratio, as in LevelView.
+template <bool Heavy>
+inline void restrict_nodes(const float* finer, const LevelView& level, Range range) {
     for (std::size_t i = range.begin; i < range.end; i += lane_count) {
         vec3 sum(real(0.0f));
+        real ratio(0.0f);
         const std::size_t packet = i / lane_padding;
         for (std::size_t k = level.begin[packet]; k < level.begin[packet + 1]; ++k) {
-            real unused;
+            real w;
             const std::size_t at = k * lane_padding + i % lane_padding;
-            sum = sum + gather_blocks(finer, level.finer + at, unused) * load(level.weight + at);
+            const real part = load(level.weight + at);
+            sum = sum + gather_blocks(finer, level.finer + at, w) * part;
+            if (!Heavy) continue;
+            if (level.particle_weight) w = mass_ratio(w, gather(level.particle_weight, level.finer + at));
+            ratio = ratio + w * part;
         }
-        store_blocks(sum, real(0.0f), level.origin + 4 * i);
+        store_blocks(sum, ratio, level.origin + 4 * i);
     }
+}
+
+inline void restriction_pass(const float* finer, const LevelView& level, Range range) {
+    if (level.heavy) return restrict_nodes<true>(finer, level, range);
+    restrict_nodes<false>(finer, level, range);
 }
 
 inline void interpolation_pass(const LevelView& level, const ProlongationView& prolongation, Range range) {
     for (std::size_t i = range.begin; i < range.end; i += lane_count) {
-        real unused, w;
-        const vec3 x = load_blocks(level.origin + 4 * i, unused);
-        load_blocks(level.position + 4 * i, w);
+        real ratio;
+        const vec3 x = load_blocks(level.origin + 4 * i, ratio);
+        const real free = load(level.node_weight + i);
+        const real w = level.heavy ? free / max(ratio, real(1.0f)) : free;
         const vec3 by = prolongation.displacement ? interpolated(prolongation, i) : vec3(real(0.0f));
         if (level.remainder) {
             vec3 moved = x, remainder(real(0.0f));

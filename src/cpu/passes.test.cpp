@@ -416,6 +416,39 @@ TEST_P(InstructionSet, carries_nodes_to_particles_alike_whatever_their_numbers_t
     expect_same(spread(*GetParam(), long_numbers), one_by_one, "32 bits");
 }
 
+TEST_P(InstructionSet, weighs_nodes_as_the_particles_they_stand_for) {
+    constexpr std::uint32_t nodes = 2 * lane_padding, particles = 100, members = 5;
+    std::mt19937 random(11);
+    const auto below = [&](std::uint32_t n) { return static_cast<std::uint32_t>(random() % n); };
+    AlignedVector<Vec4> finer(particles), origin(nodes), position(nodes), displacement(nodes);
+    AlignedVector<float> free(particles), part(members * nodes, 1.0f / members), node_weight(nodes, 4);
+    AlignedVector<std::uint32_t> node(part.size());
+    for (std::uint32_t p = 0; p < particles; ++p) {
+        free[p] = static_cast<float>(1 + below(50));
+        finer[p] = {0, 0, 0, p % 7 == 0 ? 0 : free[p] / static_cast<float>(1 + below(200))};
+    }
+    for (std::uint32_t& particle : node) particle = below(particles);
+    const AlignedVector<std::uint32_t> begin{0, members, 2 * members};
+    const LevelView level{&position[0].x, &origin[0].x, &displacement[0].x, nullptr,     begin.data(),
+                          node.data(),    part.data(),  node_weight.data(), free.data(), true};
+    const auto weigh = [&](const Passes& passes) {
+        passes.restriction(&finer[0].x, level, {0, nodes});
+        passes.interpolation(level, {}, {0, nodes});
+        return position;
+    };
+    const auto one_by_one = weigh(scalar_passes());
+    for (std::uint32_t i = 0; i < nodes; ++i) {
+        double ratio = 0;  // a particle that was pinned since the levels were built has its own mass
+        for (std::uint32_t k = 0; k < members; ++k) {
+            const std::uint32_t p = node[(i / lane_padding * members + k) * lane_padding + i % lane_padding];
+            ratio += (finer[p].w > 0 ? double{free[p]} / double{finer[p].w} : 1) / members;
+        }
+        EXPECT_NEAR(one_by_one[i].w, 4 / ratio, 1e-5) << i;
+    }
+    const auto abreast = weigh(*GetParam());
+    for (std::uint32_t i = 0; i < nodes; ++i) EXPECT_EQ(abreast[i].w, one_by_one[i].w) << i;
+}
+
 TEST_P(InstructionSet, notices_what_is_not_finite) {
     AlignedVector<float> data(64, 1.0f);
     EXPECT_TRUE(GetParam()->all_finite(data.data(), 0, 64));

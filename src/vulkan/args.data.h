@@ -193,6 +193,7 @@ struct TargetArgs {
 #define WEFT_TARGETS_ON_BODIES 1u  // places those on bodies
 #define WEFT_TARGETS_WEIGH 2u      // gives those on bodies a mass
 #define WEFT_TARGETS_PULL 3u       // takes it back, and adds to the sums of the bodies
+#define WEFT_TARGETS_WEIGH_FOR_LEVELS 4u  // as WEFT_TARGETS_WEIGH, with the sign changed
 
 // All grabs of a cloth.
 struct GrabArgs {
@@ -305,9 +306,16 @@ struct LevelArgs {
     Uints nodes;    // likewise; otherwise the parents, [parent · stride + finer node]
     Floats weights;
     Vec4s remainder;  // as in ParticleArgs, of the level's nodes; prolongation: of the particles
+    Vec4s particles;  // their positions
+    Uints pinned;     // per node: its particle if it is pinned, or WEFT_NOT_PINNED; 0 if none can be attached to a body
+    Floats node_weight;      // as in LevelView (cpu/passes.h)
+    Floats particle_weight;  // likewise
     uint stride;
     uint count;
+    uint heavy;  // likewise
+    uint unused;
 };
+#define WEFT_NOT_PINNED 0xffffffffu
 
 // All constraints of a coarse level with few nodes, sweep by sweep and batch by batch, solved by one workgroup.
 struct LevelLimitArgs {

@@ -47,8 +47,7 @@ Result<WorkBuffers> WorkBuffers::create(gpu::Device& device, const ClothModel& m
     nodes.reserve(model.hierarchy.size());
     if (has(plan.substep, PassKind::prolongation)) {
         for (const CoarseLevel& coarse : model.hierarchy) {
-            auto& start = nodes.emplace_back(coarse.capacity());
-            for (std::uint32_t node = 0; node < coarse.count; ++node) start[node].w = coarse.weight[node];
+            auto& start = nodes.emplace_back(coarse.capacity());  // zeros, for constraints that pad
             const std::uint64_t bytes = coarse.capacity() * block;
             work.levels.push_back({.position = work.arena.add_array(start),
                                    .origin = work.arena.reserve(bytes),

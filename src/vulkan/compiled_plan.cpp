@@ -332,6 +332,13 @@ class Compiler : ClothArgs {
         add(list, "average", args, args.count, pass, substep);
     }
 
+    static std::uint32_t work_on_targets(const Pass& pass) {
+        if (pass.kind == PassKind::pull_bodies) return WEFT_TARGETS_PULL;
+        if (pass.kind == PassKind::weigh_attached)
+            return pass.batch == weigh_for_levels ? WEFT_TARGETS_WEIGH_FOR_LEVELS : WEFT_TARGETS_WEIGH;
+        return pass.batch == targets_all ? WEFT_TARGETS_ALL : WEFT_TARGETS_ON_BODIES;
+    }
+
     void add_targets(List& list, const Pass& pass, std::uint32_t substep) {
         const bool pulls = pass.kind == PassKind::pull_bodies;
         const bool blown = pulls && pass.first_iteration && has_air(plan_);
@@ -345,10 +352,7 @@ class Compiler : ClothArgs {
                               .items = of_model(buffers_.around_items),
                               .count = shape_.targets,
                               .substep = substep,
-                              .pass = pass.kind == PassKind::weigh_attached ? WEFT_TARGETS_WEIGH
-                                      : pulls                               ? WEFT_TARGETS_PULL
-                                      : pass.batch == targets_all           ? WEFT_TARGETS_ALL
-                                                                            : WEFT_TARGETS_ON_BODIES,
+                              .pass = work_on_targets(pass),
                               .particles = model_.particle_count};
         if (args.count > 0) add(list, "targets", args, args.count, pass, substep);
     }
@@ -440,8 +444,14 @@ class Compiler : ClothArgs {
             .nodes = of_model(buffers_.levels[pass.level].restriction_node),
             .weights = of_model(buffers_.levels[pass.level].restriction_weight),
             .remainder = remainder_of_level(pass.level),
+            .particles = state(PointArray::position),
+            .pinned = shape_.attached ? of_model(buffers_.levels[pass.level].pinned) : 0,
+            .node_weight = of_model(buffers_.levels[pass.level].weight),
+            .particle_weight = plan_.weighs_taut && pass.level == 0 ? state(cloth_.weights) : 0,
             .stride = 0,
-            .count = level.count};
+            .count = level.count,
+            .heavy = plan_.weighs_taut ? 1u : 0u,
+            .unused = 0};
         if (pass.kind == PassKind::interpolation) limits_follow_ = true;
         if (pass.kind == PassKind::restriction) {
             add(list, "restriction", args, level.count, pass, substep);

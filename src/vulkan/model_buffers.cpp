@@ -9,7 +9,7 @@ namespace {
 
 // Arrays that the arena reads when it is built.
 struct Lists {
-    std::vector<std::vector<std::uint32_t>> blocks, prolongation_nodes, batches;
+    std::vector<std::vector<std::uint32_t>> blocks, prolongation_nodes, batches, pinned;
     std::vector<std::uint32_t> faces_by_tile, offsets, items, span_ends;
     std::vector<float> masses, span_lengths;
 };
@@ -67,17 +67,22 @@ Result<std::shared_ptr<ModelBuffers>> ModelBuffers::create(gpu::Device& device,
         self->tables[kind] = add_table(arena, model.constraints[kind], lists);
     lists.prolongation_nodes.reserve(model.hierarchy.size());
     lists.batches.reserve(model.hierarchy.size());
+    lists.pinned.reserve(model.hierarchy.size());
     for (const CoarseLevel& level : model.hierarchy) {
         auto& nodes = lists.prolongation_nodes.emplace_back(level.prolongation.weight.size());
         for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = level.prolongation.node(i);
         lists.batches.push_back(list_batches(level.limits));
+        auto& pinned = lists.pinned.emplace_back(level.count, WEFT_NOT_PINNED);
+        for (const std::uint32_t node : level.pinned) pinned[node] = level.particle[node];
         self->levels.push_back({.restriction_begin = arena.add_array(level.restriction.begin),
                                 .restriction_node = arena.add_array(level.restriction.node),
                                 .restriction_weight = arena.add_array(level.restriction.weight),
                                 .prolongation_node = arena.add_array(nodes),
                                 .prolongation_weight = arena.add_array(level.prolongation.weight),
                                 .limits = add_table(arena, level.limits, lists),
-                                .batches = arena.add_array(lists.batches.back())});
+                                .batches = arena.add_array(lists.batches.back()),
+                                .pinned = arena.add_array(pinned),
+                                .weight = arena.add_array(level.weight)});
     }
     list_around(model, lists);
     lists.masses = face_masses(model);

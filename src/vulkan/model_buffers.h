@@ -21,6 +21,8 @@ struct LevelBuffers {
     Slot restriction_begin, restriction_node, restriction_weight, prolongation_node, prolongation_weight;
     TableBuffers limits;
     Slot batches;  ///< LevelLimitArgs::batches
+    Slot pinned;   ///< LevelArgs::pinned
+    Slot weight;   ///< CoarseLevel::weight
 };
 
 class ModelBuffers {

@@ -201,6 +201,34 @@ TEST(BodiesOnVulkan, what_is_attached_is_the_same_as_on_the_cpu) {
     expect_same(settings, add, 3);
 }
 
+// Labels: slow no-asan
+TEST(BodiesOnVulkan, coarse_levels_pull_at_bodies_as_on_the_cpu) {
+    const auto add = [](World& world) {
+        const ColliderId left =
+            world.add(make_box({0.05f, 0.04f, 0.3f}, 1, {-0.55f, 0, 0}, {.velocity = {-2, 0.4f, 0}}));
+        const ColliderId right =
+            world.add(make_box({0.05f, 0.04f, 0.3f}, 0.2f, {0.55f, 0, 0}, {.velocity = {2, 0, 0}}));
+        const ClothId cloth =
+            add_attached(world,
+                         {.resolution = {49, 33},
+                          .fabric = find_fabric("cotton")->fabric,
+                          .layout = {.lines = true, .hierarchy = true}},
+                         {{left, [](Vec3 p) { return p.x < -0.49f; }}, {right, [](Vec3 p) { return p.x > 0.49f; }}});
+        const auto& levels = world.model(cloth)->hierarchy;
+        ASSERT_GE(levels.size(), 2u);
+        for (const CoarseLevel& level : levels) ASSERT_FALSE(level.pinned.empty());
+    };
+    WorldSettings settings = with_substeps(4);
+    expect_same(settings, add, 4);
+    settings.solver.iterations = 2;
+    expect_same(settings, add, 2);
+    settings.solver.compensation = Compensation::on;
+    expect_same(settings, add, 2);
+    settings.solver.compensation = Compensation::off;
+    settings.solver.method = Method::pbd;
+    expect_same(settings, add, 2);
+}
+
 // Labels: slow no-asan long
 TEST(BodiesOnVulkan, what_is_attached_meets_cloth_as_on_the_cpu) {
     for (int frames : {8, 12}) {

@@ -236,6 +236,19 @@ TEST(ClothAndBody, the_same_bits_on_any_number_of_threads_and_after_a_restore) {
     }
 }
 
+// Taut edges make the particles heavier only while there are bodies.
+TEST(ClothAndBody, cloth_whose_bodies_are_gone_goes_on_as_if_there_had_been_none) {
+    World world = make_world(WorldSettings{}), without = make_world(WorldSettings{});
+    world.add(make_sheet(pinned_sheet(33)));
+    without.add(make_sheet(pinned_sheet(33)));
+    const ColliderId ball = world.add(make_ball(0.1f, 5, {0, 0.12f, 0}));
+    run(world, 0.5), run(without, 0.05);
+    world.remove(ball);
+    ASSERT_TRUE(without.restore(world.save()).ok());
+    run(world, 0.25), run(without, 0.25);
+    EXPECT_EQ(world.state_hash(), without.state_hash());
+}
+
 TEST(ClothAndBody, a_body_without_reaction_does_not_feel_the_cloth) {
     World world = make_world(WorldSettings{});
     world.add(make_sheet(pinned_sheet(17)));

@@ -107,9 +107,10 @@ class TrafficCounter {
         if (pass.kind == PassKind::restriction)
             return {.own = 2 * word * static_cast<double>(level.restriction.node.size()),
                     .shared = block * (finer + nodes)};
-        if (pass.kind == PassKind::node_correction || coarsest) return {.own = 0, .shared = 3 * block * nodes};
-        return {.own = prolongation_bytes(model_.hierarchy[pass.level + 1].prolongation) * nodes,
-                .shared = block * (3 * nodes + model_.hierarchy[pass.level + 1].count)};
+        if (pass.kind == PassKind::node_correction) return {.own = 0, .shared = 3 * block * nodes};
+        if (coarsest) return {.own = word * nodes, .shared = 2 * block * nodes};
+        return {.own = (word + prolongation_bytes(model_.hierarchy[pass.level + 1].prolongation)) * nodes,
+                .shared = block * (2 * nodes + model_.hierarchy[pass.level + 1].count)};
     }
 
     bool predicts_first() const { return plan_.substep.front().kind == PassKind::predict; }

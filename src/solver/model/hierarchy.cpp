@@ -387,6 +387,7 @@ Hierarchy build_hierarchy(const RestShape& rest, const Fabric& fabric, std::span
         if (count < least_nodes || 4 * std::size_t{count} > 3 * graph.size()) break;
         CoarseLevel level{.count = count,
                           .particle = {},
+                          .pinned = {},
                           .restriction = {},
                           .weight = {},
                           .limits = {},
@@ -409,6 +410,7 @@ Hierarchy build_hierarchy(const RestShape& rest, const Fabric& fabric, std::span
         for (std::uint32_t node = 0; node < count; ++node) {
             places[node] = place[selection.chosen[node]];
             pinned_node[node] = pinned[selection.chosen[node]];
+            if (pinned_node[node]) level.pinned.push_back(node);
             nodes[node] = level.particle[node] = particle[selection.chosen[node]];
             level.weight[node] =
                 pinned_node[node] || !(node_mass[node] > 0) ? 0 : static_cast<float>(1 / node_mass[node]);

@@ -50,6 +50,7 @@ inline constexpr std::uint32_t nodes_for_many_threads = 2048;
 struct CoarseLevel {
     std::uint32_t count = 0;
     AlignedVector<std::uint32_t> particle;  ///< node -> particle; padded
+    std::vector<std::uint32_t> pinned;      ///< nodes, ascending
     Restriction restriction;                ///< from the next finer level; of the first level, from particles
     AlignedVector<float> weight;            ///< 1/kg per node: inverse of the mass that it moves; padded with zeros
     ConstraintTable limits;                 ///< constraints between nodes

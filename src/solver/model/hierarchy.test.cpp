@@ -219,6 +219,20 @@ TEST(Hierarchy, weighs_what_it_carries_and_lets_no_row_be_much_shorter_than_the_
     }
 }
 
+TEST(Hierarchy, lists_the_nodes_that_are_pinned) {
+    const std::vector<std::uint32_t> pins{0, 1, 32, 500};
+    const auto model = leveled_model(jittered(33), {}, pins);
+    ASSERT_GE(model->hierarchy.size(), 2u);
+    for (const CoarseLevel& level : model->hierarchy) {
+        std::vector<std::uint32_t> pinned;
+        for (std::uint32_t node = 0; node < level.count; ++node)
+            if (std::ranges::binary_search(pins, level.particle[node])) pinned.push_back(node);
+        EXPECT_EQ(level.pinned, pinned);
+        EXPECT_FALSE(pinned.empty());
+        for (const std::uint32_t node : pinned) EXPECT_EQ(level.weight[node], 0);
+    }
+}
+
 TEST(Hierarchy, is_left_out_where_it_is_of_no_use) {
     Fabric soft;
     soft.stretch = {.stretch = {2, 2}, .compression = {2, 2}, .shear = 1};

@@ -156,6 +156,7 @@ class Planner {
     void add_levels(bool first, Passes& passes) const {
         const bool levels = settings_.solver.hierarchy &&
                             std::ranges::any_of(cloths_, [](const auto& one) { return !one.model->hierarchy.empty(); });
+        if (levels && attached()) passes.push_back({.kind = PassKind::weigh_attached, .batch = weigh_for_levels});
         if (levels && grabbed()) passes.push_back({.kind = PassKind::hide_grabs});
         if (levels) add_hierarchy(first, passes);
         if (grabbed() && (levels || first)) passes.push_back({.kind = PassKind::hold_grabs, .first_iteration = first});
@@ -265,7 +266,7 @@ class Planner {
         move_bodies(move_after_faces);
     }
 
-    // Attached points have a mass only while constraints act. For levels and contact they are pins that move.
+    // Attached points have a mass only while constraints and coarse levels act. For contact they are pins that move.
     void add_constraints_and_pulls(bool first, bool rounds, Passes& passes) const {
         if (attached()) passes.push_back({.kind = PassKind::weigh_attached});
         add_constraints(first, passes);

@@ -105,6 +105,10 @@ constexpr bool is_body_pass(PassKind kind) {
 /// Batches of PassKind::targets: all targets, those on bodies, and those on bodies of cloths without exact contact,
 /// which would no longer keep its promise if particles moved after it.
 inline constexpr std::uint32_t targets_all = 0, targets_on_bodies = 1, targets_at_last = 2;
+/// Batches of PassKind::weigh_attached: for the constraints of the cloth, and before them for those of its coarse
+/// levels, with the sign changed. Levels that are older than a pin take its particle for a free one, and do not move
+/// particles of negative weight.
+inline constexpr std::uint32_t weigh_for_constraints = 0, weigh_for_levels = 1;
 /// Batches of PassKind::move_bodies: before contact of faces, which counts contacts; after contact of particles; after
 /// contact of faces; after constraints have pulled at attached points, which are then placed again; and likewise in the
 /// rounds of exact contact, where they stay.

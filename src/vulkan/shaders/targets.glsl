@@ -47,8 +47,9 @@ void run_targets(uint i)
     vec4 point = load_point(target_args.at.position, target.particle);
     bool places = pass == WEFT_TARGETS_ALL || pass == WEFT_TARGETS_ON_BODIES;
     vec3 place = place_of_target(target, places ? WEFT_BODY_NOW : WEFT_BODY_PLACED);
-    if (pass == WEFT_TARGETS_WEIGH) {
-        point.w = weight_of_target(target, place);
+    if (pass == WEFT_TARGETS_WEIGH || pass == WEFT_TARGETS_WEIGH_FOR_LEVELS) {
+        float weight = weight_of_target(target, place);
+        point.w = pass == WEFT_TARGETS_WEIGH ? weight : -weight;
     } else if (pass == WEFT_TARGETS_PULL) {
         vec3 by = point.xyz - place;
         if (point.w > 0.0 && dot(by, by) > 0.0) add_to_body(WEFT_BODIES_OF_TARGETS, target.body, -by, place, point.w);
