@@ -147,6 +147,8 @@ struct FaceView {
     /// If set, contacts are not appended: the corners of faces that have passed are held at a part of their way.
     void (*hold)(const FaceView&, std::uint32_t particle, std::uint32_t part) = nullptr;
     void* holds = nullptr;
+    /// Per particle: set to 1 for the corners of faces that touch. Needed unless `hold` is set.
+    std::uint8_t* retry = nullptr;
 };
 
 /// Where triangles are and how they move, per item of a FaceView.
@@ -161,7 +163,7 @@ inline constexpr std::size_t numbers_per_face = 8;
 /// room for all that are appended, and lane_padding more.
 struct FaceRows {
     std::size_t count = 0;
-    bool any_swept = false;    ///< whether a face touches on its way
+    bool any_fast = false;     ///< whether a face that was looked at is FaceContact::fast
     float* weights = nullptr;  ///< of the first two corners; static and kinetic friction
     float* plane = nullptr;    ///< normal, offset
     float* start = nullptr;    ///< the point at the start; its gap there

@@ -235,6 +235,7 @@ WEFT_FN vec3 slope_across(Corners x, FacePoint point)
 struct FaceContact {
     mask touches;
     mask swept;         // it touches on the way
+    mask fast;          // its way is so long that pushes may carry it, or faces beside it, through the body
     vec3 weights;       // of the point that touches
     vec3 normal;        // in the body's frame
     vec3 place;         // where it touches, in the body's frame
@@ -279,6 +280,7 @@ WEFT_OUTLINED_FN FaceContact swept_face(Solid solid, Corners from, Corners to,
     contact.gap = dot(now.normal, point_of(to, now.weights) - touched) + now.distance;
     contact.gap_at_start = first.distance;
     contact.swept = contact.touches;
+    contact.fast = contact.touches;
     contact.time = time;
     contact.last = now.distance;
     return contact;
@@ -325,6 +327,7 @@ WEFT_FN FaceContact face_contact(Solid solid, Corners from, Corners to, FacePoin
     // A triangle that moves less than its least distance at the start cannot have passed.
     real way = longest_way(from, to);
     mask moves_far = last.distance < real(2) * way * solid.steepness;
+    contact.fast = moves_far;
     contact.swept = contact.touches && !contact.touches;
     if (any(moves_far || contact.touches)) {
         FacePoint first = face_point(solid, from, last.weights);
