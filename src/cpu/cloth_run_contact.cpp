@@ -166,7 +166,7 @@ ContactView ClothRun::contact_view(const NearCollider& near, std::uint32_t subst
             .data = blocks_of(collider),
             .steepness = steepness_of(collider),
             .roundness = roundness_of(collider),
-            .layer_distance = layer_distance_of(collider),
+            .width = width_of(collider),
             .now = body == none ? input_.places->pose(near.collider, substep + 1) : bodies_.now(body),
             .before = body == none ? input_.places->pose(near.collider, substep) : bodies_.before(body),
             .static_friction = static_friction,

@@ -5,7 +5,7 @@ WEFT_FN Solid solid_of(const ContactView& c) {
             {real(c.numbers[0]), real(c.numbers[1]), real(c.numbers[2]), real(c.numbers[3]), c.data},
             real(c.steepness),
             real(c.roundness),
-            real(c.layer_distance)};
+            real(c.width)};
 }
 
 WEFT_FN ContactBody make_body(const ContactView& c) {

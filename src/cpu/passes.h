@@ -80,7 +80,7 @@ struct ContactView {
     int kind;                                    ///< of the shape
     std::array<float, 4> numbers;                ///< of the shape
     ShapeBlocks data;                            ///< of the shape
-    float steepness, roundness, layer_distance;  ///< of the shape (swept.kernel.h)
+    float steepness, roundness, width;  ///< of the shape (swept.kernel.h)
     Pose now, before;                            ///< at the end and at the start of the substep
     float static_friction, kinetic_friction;
     ThicknessView thickness;

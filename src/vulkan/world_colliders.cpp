@@ -152,7 +152,7 @@ void WorldColliders::write_colliders(std::span<const Collider> colliders, const 
                  .pose_step = moves ? 1u : 0u,
                  .steepness = steepness_of(collider),
                  .roundness = roundness_of(collider),
-                 .layer_distance = layer_distance_of(collider),
+                 .width = width_of(collider),
                  .body = collider.body ? bodies++ : 0,
                  .unused0 = 0,
                  .unused1 = 0};
