@@ -56,23 +56,17 @@ class FaceContacts {
     template <class Visit>
     void for_each_push(const ParticleView& particles, bool last, Visit&& visit) const;
 
-    /// Whether faces may pass. Valid for all workers after all have found their contacts.
-    bool any_fast() const;
-    /// Collects the faces of a run around those that touch and around particles that have been moved back, for calls of
-    /// hold().
-    void collect_again(unsigned worker, const FacesByTile& faces, const ColliderRun& run);
+    /// Whether faces may have passed. Valid for all workers after all have found their contacts.
+    bool any_swept() const;
+    /// Collects the faces of a run around those that touch on their way, for calls of hold().
+    void collect_swept(unsigned worker, const FacesByTile& faces, const ColliderRun& run);
     /// Marks particles of those faces that have passed, after all pushes. `still`: they go no part of their way,
     /// otherwise the part before the touch.
     void hold(const Passes& passes, unsigned worker, const ParticleView& particles, const FacesByTile& faces,
               std::uint32_t collider, const ContactView& contact, bool still);
-    /// Calls visit(particle, collider, part of its way) for the particles that a worker marked, and unmarks them. It
-    /// returns whether it has moved the particle.
+    /// Calls visit(particle, collider, part of its way) for the particles that a worker marked, and unmarks them.
     template <class Visit>
     void for_each_held(unsigned worker, Visit&& visit);
-    /// Whether that has moved any particle since begin() or forget_settled().
-    bool any_settled() const;
-    /// Lets collect_again() collect only faces around particles that are moved from now on.
-    void forget_settled();
 
   private:
     /// Contacts of the same collider, up to number `end`.
@@ -93,7 +87,7 @@ class FaceContacts {
         std::uint32_t narrowed_count = 0;
         bool is_narrowed = false, is_measured = false;
         AlignedVector<float> measures;  ///< of `items`, if is_measured
-        bool any_of_bodies = false, any_settled = false;
+        bool any_of_bodies = false;
 
         void drop() { item_count = 0, is_narrowed = is_measured = false; }
     };
@@ -113,8 +107,8 @@ class FaceContacts {
     std::vector<Part> parts_;
     AlignedVector<FaceSum> sums_;       ///< per particle; 0 between two sweeps
     std::vector<std::uint32_t> holds_;  ///< per particle; 0 for those that are not held
-    /// Per particle: whether a face of it may touch; whether collect_again() collects its faces.
-    std::vector<std::uint8_t> near_, retry_;
+    /// Per particle: whether a face of it may touch; whether a face of it touches on its way.
+    std::vector<std::uint8_t> near_, swept_;
 };
 
 template <class Visit>
@@ -141,16 +135,12 @@ void FaceContacts::for_each_push(const ParticleView& particles, bool last, Visit
 
 template <class Visit>
 void FaceContacts::for_each_held(unsigned worker, Visit&& visit) {
-    Part& mine = parts_[worker];
-    for (const std::uint32_t p : mine.held) {
+    for (const std::uint32_t p : parts_[worker].held) {
         const std::uint32_t part = WEFT_HOLD_PARTS - (holds_[p] / WEFT_HOLD_COLLIDERS - 1);
-        const std::uint32_t collider = holds_[p] % WEFT_HOLD_COLLIDERS;
+        visit(p, holds_[p] % WEFT_HOLD_COLLIDERS, static_cast<float>(part) / static_cast<float>(WEFT_HOLD_PARTS));
         holds_[p] = 0;
-        if (!visit(p, collider, static_cast<float>(part) / static_cast<float>(WEFT_HOLD_PARTS))) continue;
-        retry_[p] = 1;
-        mine.any_settled = true;
     }
-    mine.held.clear();
+    parts_[worker].held.clear();
 }
 
 }  // namespace weft::cpu

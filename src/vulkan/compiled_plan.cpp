@@ -205,7 +205,6 @@ class Compiler : ClothArgs {
             case PassKind::move_faces:
             case PassKind::hold_faces:
             case PassKind::settle_faces:
-            case PassKind::finish_holds:
                 add_face_contact(list, pass, substep);
                 break;
             case PassKind::restriction:
@@ -428,9 +427,8 @@ class Compiler : ClothArgs {
                                    .substep = substep,
                                    .sweep = pass.batch};
         const bool by_particle = pass.kind == PassKind::move_faces || pass.kind == PassKind::settle_faces;
-        Command& command = add(list, std::string(pass_info(pass.kind).name), args,
-                               by_particle ? model_.particle_count : faces.begin.back(), pass, substep);
-        if (pass.kind == PassKind::finish_holds) command.groups = 1;
+        add(list, std::string(pass_info(pass.kind).name), args,
+            by_particle ? model_.particle_count : faces.begin.back(), pass, substep);
     }
 
     void add_level(List& list, const Pass& pass, std::uint32_t substep) {

@@ -93,24 +93,22 @@ FaceContact contact_of(ColliderIn collider, ContactBody body, FacePoints face, f
     Solid solid = solid_of(collider);
     Corners local = to_body(body, face.x), local_at_start = to_body_at_start(body, face.start);
     FacePoint center = face_point(solid, local, center_weights());
-    FaceContact none = FaceContact(false, false, false, center.weights, center.normal, vec3(0.0), 0.0, 0.0, 1.0, 0.0);
+    FaceContact none = FaceContact(false, false, center.weights, center.normal, vec3(0.0), 0.0, 0.0, 1.0, 0.0);
     if (!face_may_touch(local_at_start, local, center, solid, nearest)) return none;
     return face_contact(solid, local_at_start, local, center, nearest_of_faces(body.half_thickness), body.half_thickness,
                         deepest);
 }
 
-// Words after the sums: whether a face is FaceContact::fast; the lengths of two lists of held particles; the lists.
-uint fast_word() { return WEFT_FACE_SUM * face_contact_args.at.particles; }
-uint length_of_held(uint list) { return fast_word() + 1u + list; }
-uint first_held(uint list) { return fast_word() + 3u + list * face_contact_args.at.particles; }
+// Whether a face of the cloth touches on its way, in a word after the sums.
+uint swept_word() { return WEFT_FACE_SUM * face_contact_args.at.particles; }
 
-// Marks of a particle (WEFT_NEAR_FACES of contact.glsl, WEFT_RETRY_FACES).
+// Marks of a particle (WEFT_NEAR_FACES of contact.glsl, WEFT_SWEPT_FACES).
 uint marks_of(uint p) { return face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 5u]; }
 bool any_marked(uvec3 corner, uint mark)
 {
     return ((marks_of(corner.x) | marks_of(corner.y) | marks_of(corner.z)) & mark) != 0u;
 }
-void mark_to_retry(uint p) { atomicOr(face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 5u], WEFT_RETRY_FACES); }
+void mark_swept(uint p) { atomicOr(face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 5u], WEFT_SWEPT_FACES); }
 
 void run_find_faces(uint f)
 {
@@ -129,16 +127,15 @@ void run_find_faces(uint f)
         ContactBody body = body_of(face_contact_args.at.colliders, collider, face_contact_args.at.frame, face_substep(),
                                    half_thickness);
         FaceContact contact = contact_of(collider, body, face, nearest_of_faces(half_thickness), -body.half_thickness);
-        if (contact.fast) atomicOr(face_contact_args.at.sums.at[fast_word()], 1u);
-        if (contact.fast && contact.touches) {
-            mark_to_retry(corner.x);
-            mark_to_retry(corner.y);
-            mark_to_retry(corner.z);
-        }
         if (!touches_beside_corners(contact)) continue;
         store_contact(place, face_row(body, contact, face.x, face.start, to_body(body, face.x)));
         if (is_body(collider) && feels_cloth(face_contact_args.at.colliders.at.bodies, collider.body))
             add_touch(face_contact_args.at.colliders.at.bodies, collider.body);
+        if (!contact.swept) continue;
+        atomicOr(face_contact_args.at.sums.at[swept_word()], 1u);
+        mark_swept(corner.x);
+        mark_swept(corner.y);
+        mark_swept(corner.z);
     }
 }
 
@@ -285,24 +282,13 @@ void run_move_faces(uint p)
     store_point(face_contact_args.at.position, p, vec4(x.xyz + total * share, x.w));
 }
 
-void append_held(uint list, uint p)
-{
-    uint at = atomicAdd(face_contact_args.at.sums.at[length_of_held(list)], 1u);
-    face_contact_args.at.sums.at[first_held(list) + at] = p;
-}
+void hold_corner(uint p, uint mark) { atomicMax(face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 4u], mark); }
 
-#define WEFT_NO_LIST 2u
-void hold_corner(uint p, uint mark, uint list)
+void run_hold_faces(uint f)
 {
-    uint before = atomicMax(face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 4u], mark);
-    if (before == 0u && list != WEFT_NO_LIST) append_held(list, p);
-}
-
-// Marks the particles of a face that has passed.
-//   first  the particles go the part of their way before the touch, otherwise none
-//   list   of held particles, to which they are added
-void hold_face(uint f, uvec3 corner, bool first, uint list)
-{
+    if (face_contact_args.at.sums.at[swept_word()] == 0u) return;
+    uvec3 corner = corners_of_face(f);
+    if (!any_marked(corner, WEFT_SWEPT_FACES)) return;
     uint tile = tile_of_face(corner);
     FacePoints face = points_of_face(corner);
     float half_thickness = half_thickness_of_face(face_contact_args.at.frame, corner);
@@ -316,45 +302,29 @@ void hold_face(uint f, uvec3 corner, bool first, uint list)
         float nearest = nearest_of_faces(half_thickness);
         FaceContact contact = contact_of(collider, body, face, 0.0, least_after_pushes(nearest));
         if (!has_passed(contact, nearest)) continue;
-        uint part = first ? uint(floor(contact.time * float(WEFT_HOLD_PARTS))) : 0u;
+        uint part = face_contact_args.at.sweep > 0u ? 0u : uint(floor(contact.time * float(WEFT_HOLD_PARTS)));
         uint mark = (uint(WEFT_HOLD_PARTS) - part + 1u) * WEFT_HOLD_COLLIDERS + number % WEFT_HOLD_COLLIDERS;
-        hold_corner(corner.x, mark, list);
-        hold_corner(corner.y, mark, list);
-        hold_corner(corner.z, mark, list);
+        hold_corner(corner.x, mark);
+        hold_corner(corner.y, mark);
+        hold_corner(corner.z, mark);
     }
 }
 
-void run_hold_faces(uint f)
+void run_settle_faces(uint p)
 {
-    if (face_contact_args.at.sums.at[fast_word()] == 0u) return;
-    uvec3 corner = corners_of_face(f);
-    if (any_marked(corner, WEFT_RETRY_FACES)) hold_face(f, corner, face_contact_args.at.sweep == 0u, WEFT_NO_LIST);
-}
-
-// Moves a particle that is held. Returns whether that has changed its place.
-bool settle_face_particle(uint p)
-{
+    if (p == 0u && face_contact_args.at.sweep + 1u == WEFT_FACE_HOLDS) face_contact_args.at.sums.at[swept_word()] = 0u;
     uint mark = face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 4u];
-    if (mark == 0u) return false;
+    if (mark == 0u) return;
     face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 4u] = 0u;
     vec4 x = load_point(face_contact_args.at.position, p);
-    if (!(x.w > 0.0)) return false;
+    if (!(x.w > 0.0)) return;
     uint number = mark % WEFT_HOLD_COLLIDERS;
     float part = float(uint(WEFT_HOLD_PARTS) - (mark / WEFT_HOLD_COLLIDERS - 1u)) / float(WEFT_HOLD_PARTS);
     ColliderIn collider = face_contact_args.at.colliders.at.colliders.at[number];
     ContactBody body = body_of(face_contact_args.at.colliders, collider, face_contact_args.at.frame, face_substep(), 0.0);
     vec3 place = held_place(body, to_body_at_start(body, face_contact_args.at.start.at[p].xyz), to_body(body, x.xyz), part);
-    if (place == x.xyz) return false;
     note_push(p, number, place - x.xyz, x.xyz - body.position, x);
     store_point(face_contact_args.at.position, p, vec4(place, x.w));
-    return true;
-}
-
-void run_settle_faces(uint p)
-{
-    if (!settle_face_particle(p)) return;
-    mark_to_retry(p);
-    if (face_contact_args.at.sweep + 1u == WEFT_FACE_HOLDS) append_held(0u, p);
 }
 
 #endif
