@@ -41,6 +41,9 @@ ShapeData make_convex_data(const ConvexHull& hull) {
     ShapeData data;
     data.bounds = bounds_of(hull.vertices);
     const Vec3 center = data.bounds.center();
+    Vec3 inner;
+    for (const Vec3 v : hull.vertices) inner = inner + (v - center) * (1 / static_cast<float>(hull.vertices.size()));
+    float depth = std::numeric_limits<float>::infinity();  // of that point
     append_block(data.words, {as_word(hull.faces.size()), as_word(hull.edges.size()), 0}, 0);
     append_block(data.words, center, length(data.bounds.size()) * 0.5f);
     for (const ConvexHull::Face& face : hull.faces) {
@@ -51,6 +54,7 @@ ShapeData make_convex_data(const ConvexHull& hull) {
                                           double{face.normal.y} * (double{v.y} - center.y) +
                                           double{face.normal.z} * (double{v.z} - center.z));
         append_block(data.words, face.normal, static_cast<float>(offset));
+        depth = std::min(depth, static_cast<float>(offset) - dot(face.normal, inner));
     }
     for (const auto& [a, b] : hull.edges) {
         const Vec3 from = hull.vertices[a], to = hull.vertices[b];
@@ -61,6 +65,7 @@ ShapeData make_convex_data(const ConvexHull& hull) {
         append_block(data.words,
                      {static_cast<float>(x * scale), static_cast<float>(y * scale), static_cast<float>(z * scale)}, 0);
     }
+    data.width = 2 * std::max(depth, 0.0f);  // of the largest ball around the point; the hull's own may be larger
     data.surface = surface_of(hull);
     return data;
 }

@@ -214,7 +214,8 @@ class FieldBuilder {
                 }
             }
         }
-        return std::max(1.0, 1.0001 * fine_unit * std::sqrt(double(most)));  // the kernel rounds
+        // More than 1 even if all cells are exact: the solid need not be convex.
+        return std::max(1.0001, 1.0001 * fine_unit * std::sqrt(double(most)));  // the kernel rounds
     }
 
     void write(AlignedVector<float>& words) const {
@@ -472,7 +473,7 @@ Result<DistanceField> build_distance_field(std::span<const Vec3> positions, std:
     } while (builder.find_bricks_near_zero());
     builder.write(field.data.words);
     field.data.steepness = static_cast<float>(builder.steepness());
-    field.data.layer_distance = layer_distance_of(field.cell);
+    field.data.width = field_width(field.cell);
     field.is_sheet = surface.is_sheet();
     field.has_inside = builder.has_inside();
 

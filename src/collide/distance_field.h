@@ -34,8 +34,8 @@ inline constexpr std::uint32_t distance_field_version = 3;
 /// Kernels number blocks of 16 bytes by floats, which are exact up to 2^24.
 inline constexpr std::size_t largest_distance_field = std::size_t{16} << 24;
 
-/// ShapeData::layer_distance of a field: a part and the gap behind it that are in the field together take two cells.
-constexpr float layer_distance_of(float cell) {
+/// ShapeData::width of a field: a part and the gap behind it that are in the field together take two cells.
+constexpr float field_width(float cell) {
     return cell + cell;
 }
 

@@ -12,9 +12,11 @@ namespace weft {
 
 struct ShapeData {
     AlignedVector<float> words;  ///< for the shape's kernel, whose file says what they hold; whole blocks of four
-    float steepness = 1;         ///< at least 1: the surface is no nearer than the kernel's distance divided by this
-    /// m: parts of the surface that face the same way, one behind the other, are at least this far apart.
-    float layer_distance = static_cast<float>(far_away);
+    /// The surface is no nearer than the kernel's distance divided by this: 1 for a convex shape, more for another one.
+    float steepness = 1;
+    /// m: what passes through the shape, without what its numbers add, or through one of its parts, moves at least this
+    /// far.
+    float width = 0;
     Bounds bounds;         ///< m: of the shape in its own frame, without what its numbers add
     TriangleMesh surface;  ///< the shape's surface, without what its numbers add
     bool open = false;     ///< `surface` has holes

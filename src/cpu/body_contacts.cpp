@@ -19,7 +19,7 @@ scalar::Solid solid_of(const Collider& collider) {
             {collider.numbers[0], collider.numbers[1], collider.numbers[2], collider.numbers[3], blocks_of(collider)},
             steepness_of(collider),
             roundness_of(collider),
-            layer_distance_of(collider)};
+            width_of(collider)};
 }
 
 scalar::FlatFaces faces_of(const BodyFeatures& features) {

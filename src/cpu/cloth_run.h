@@ -60,7 +60,11 @@ class ClothRun {
     void move_faces(bool last, Worker worker) const;
     void log_contact(std::uint32_t particle, std::uint32_t collider, Vec3 by, Vec3 lever) const;
     void push_back(std::uint32_t particle, std::uint32_t collider, Vec3 by) const;
-    void settle_faces(std::uint32_t substep, Worker worker) const;
+    void hold_faces(const Pass& pass, std::uint32_t substep, Worker worker) const;
+    bool gives(std::uint32_t collider) const;
+    void settle_faces(const Pass& pass, std::uint32_t substep, Worker worker) const;
+    void settle_faces_of(unsigned worker, std::uint32_t substep, bool last) const;
+    void finish_holds(const Pass& pass, std::uint32_t substep, unsigned workers) const;
     LambdaUse use_of_lambda(const Pass& pass, std::uint32_t substep) const {
         return lambda_use(plan_, model(), pass, substep);
     }

@@ -166,7 +166,7 @@ ContactView ClothRun::contact_view(const NearCollider& near, std::uint32_t subst
             .data = blocks_of(collider),
             .steepness = steepness_of(collider),
             .roundness = roundness_of(collider),
-            .layer_distance = layer_distance_of(collider),
+            .width = width_of(collider),
             .now = body == none ? input_.places->pose(near.collider, substep + 1) : bodies_.now(body),
             .before = body == none ? input_.places->pose(near.collider, substep) : bodies_.before(body),
             .static_friction = static_friction,
@@ -230,11 +230,12 @@ void ClothRun::run_face_contact(const Pass& pass, std::uint32_t substep, Worker 
             for_each_near_face(
                 pass, substep, worker, [&](const ColliderRun& run) { contacts.collect(worker.number, faces, run); },
                 [&](const NearCollider& near) {
-                    const std::uint32_t body = bodies_.body_of(near.collider);
-                    const bool moved = body != none && bodies_.feels_cloth(body);
+                    const bool moved = gives(near.collider);
                     const std::size_t found = contacts.find(passes_, worker.number, view_, faces, near.collider,
                                                             contact_view(near, substep), moved);
-                    if (moved) bodies_.add_touches(worker.number, body, static_cast<std::uint32_t>(found));
+                    if (!moved) return;
+                    bodies_.add_touches(worker.number, bodies_.body_of(near.collider),
+                                        static_cast<std::uint32_t>(found));
                 });
             break;
         case PassKind::push_faces:
@@ -245,18 +246,44 @@ void ClothRun::run_face_contact(const Pass& pass, std::uint32_t substep, Worker 
             move_faces(pass.batch == face_sweeps, worker);
             break;
         case PassKind::hold_faces:
-            if (!contacts.any_swept()) break;
-            for_each_near_face(
-                pass, substep, worker,
-                [&](const ColliderRun& run) { contacts.collect_swept(worker.number, faces, run); },
-                [&](const NearCollider& near) {
-                    contacts.hold(passes_, worker.number, view_, faces, near.collider, contact_view(near, substep),
-                                  pass.batch > 0);
-                });
+            if (contacts.any_fast()) hold_faces(pass, substep, worker);
             break;
-        default:  // settle_faces
-            if (contacts.any_swept()) settle_faces(substep, worker);
+        case PassKind::settle_faces:
+            if (contacts.any_fast()) settle_faces(pass, substep, worker);
             break;
+        default:  // finish_holds
+            if (worker.number == 0) finish_holds(pass, substep, worker.count);
+            break;
+    }
+}
+
+void ClothRun::hold_faces(const Pass& pass, std::uint32_t substep, Worker worker) const {
+    FaceContacts& contacts = cloth_.face_contacts;
+    const FacesByTile& faces = *model().faces_by_tile;
+    const bool last = pass.kind == PassKind::finish_holds;
+    for_each_near_face(
+        pass, substep, worker, [&](const ColliderRun& run) { contacts.collect_again(worker.number, faces, run, last); },
+        [&](const NearCollider& near) {
+            if (last && gives(near.collider)) return;
+            contacts.hold(passes_, worker.number, view_, faces, near.collider, contact_view(near, substep),
+                          last || pass.batch > 0);
+        });
+}
+
+// Whether cloth moves the collider.
+bool ClothRun::gives(std::uint32_t collider) const {
+    const std::uint32_t body = bodies_.body_of(collider);
+    return body != none && bodies_.feels_cloth(body);
+}
+
+// A particle that is held lets the faces around it pass, whose particles are held in turn, and so on. Few are left
+// here, so one thread holds them all.
+void ClothRun::finish_holds(const Pass& pass, std::uint32_t substep, unsigned workers) const {
+    FaceContacts& contacts = cloth_.face_contacts;
+    for (std::uint32_t round = 0; round < most_hold_rounds && contacts.any_settled(); ++round) {
+        for (unsigned worker = 0; worker < workers; ++worker) hold_faces(pass, substep, {worker, workers});
+        contacts.forget_settled();
+        for (unsigned worker = 0; worker < workers; ++worker) settle_faces_of(worker, substep, true);
     }
 }
 
@@ -281,35 +308,40 @@ void ClothRun::log_contact(std::uint32_t particle, std::uint32_t collider, Vec3 
 
 // The collider gets the opposite of what it did to a particle, if it is a body. One thread at a time.
 void ClothRun::push_back(std::uint32_t particle, std::uint32_t collider, Vec3 by) const {
-    const std::uint32_t body = bodies_.body_of(collider);
-    if (body == none || !bodies_.feels_cloth(body)) return;
+    if (!gives(collider)) return;
     const float* x = view_.position + 4 * std::size_t{particle};
-    bodies_.add_push(0, body, by, Vec3{x[0], x[1], x[2]} + by, x[3]);
+    bodies_.add_push(0, bodies_.body_of(collider), by, Vec3{x[0], x[1], x[2]} + by, x[3]);
 }
 
 // Likewise.
-void ClothRun::settle_faces(std::uint32_t substep, Worker worker) const {
+void ClothRun::settle_faces(const Pass& pass, std::uint32_t substep, Worker worker) const {
     const bool logs = !cloth_.account.empty() || cloth_.face_contacts.any_of_bodies();
     if (logs && worker.number != 0) return;
-    for (unsigned of = logs ? 0 : worker.number; of < (logs ? worker.count : worker.number + 1); ++of) {
-        cloth_.face_contacts.for_each_held(of, [&](std::uint32_t p, std::uint32_t collider, float part) {
-            float* x = view_.position + 4 * std::size_t{p};
-            const float* start = view_.start + 4 * std::size_t{p};
-            if (!(x[3] > 0)) return;
-            const std::uint32_t number = bodies_.body_of(collider);
-            const Pose now = number == none ? input_.places->pose(collider, substep + 1) : bodies_.now(number);
-            const scalar::ContactBody body =
-                body_between(number == none ? input_.places->pose(collider, substep) : bodies_.before(number), now);
-            const scalar::vec3 at{x[0], x[1], x[2]};
-            const scalar::vec3 held =
-                held_place(body, to_body_at_start(body, {start[0], start[1], start[2]}), to_body(body, at), part);
-            const Vec3 place{held.x, held.y, held.z};
-            const Vec3 before{x[0], x[1], x[2]};
-            log_contact(p, collider, place - before, before - now.position);
-            push_back(p, collider, place - before);
-            x[0] = place.x, x[1] = place.y, x[2] = place.z;
-        });
-    }
+    for (unsigned of = logs ? 0 : worker.number; of < (logs ? worker.count : worker.number + 1); ++of)
+        settle_faces_of(of, substep, pass.batch + 1 == face_holds);
+}
+
+// Moves the particles that the worker has marked. What a body gave way to for a held particle is not known here, so
+// that faces around it are not tried again.
+void ClothRun::settle_faces_of(unsigned worker, std::uint32_t substep, bool last) const {
+    cloth_.face_contacts.for_each_held(worker, last, [&](std::uint32_t p, std::uint32_t collider, float part) {
+        float* x = view_.position + 4 * std::size_t{p};
+        const float* start = view_.start + 4 * std::size_t{p};
+        if (!(x[3] > 0)) return false;
+        const std::uint32_t number = bodies_.body_of(collider);
+        const Pose now = number == none ? input_.places->pose(collider, substep + 1) : bodies_.now(number);
+        const scalar::ContactBody body =
+            body_between(number == none ? input_.places->pose(collider, substep) : bodies_.before(number), now);
+        const scalar::vec3 at{x[0], x[1], x[2]};
+        const scalar::vec3 held =
+            held_place(body, to_body_at_start(body, {start[0], start[1], start[2]}), to_body(body, at), part);
+        const Vec3 place{held.x, held.y, held.z}, before{x[0], x[1], x[2]};
+        if (place == before) return false;
+        log_contact(p, collider, place - before, before - now.position);
+        push_back(p, collider, place - before);
+        x[0] = place.x, x[1] = place.y, x[2] = place.z;
+        return !gives(collider);
+    });
 }
 
 void ClothRun::count_contacts(Worker worker) const {

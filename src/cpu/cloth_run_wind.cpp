@@ -44,7 +44,7 @@ void ClothRun::run_shelter(const AirView& air, float reach, Range mine, unsigned
                                .data = blocks_of(collider),
                                .steepness = steepness_of(collider),
                                .roundness = roundness_of(collider),
-                               .layer_distance = layer_distance_of(collider),
+                               .width = width_of(collider),
                                .now = pose,
                                .before = pose,
                                .static_friction = 0,

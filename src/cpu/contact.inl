@@ -5,7 +5,7 @@ WEFT_FN Solid solid_of(const ContactView& c) {
             {real(c.numbers[0]), real(c.numbers[1]), real(c.numbers[2]), real(c.numbers[3]), c.data},
             real(c.steepness),
             real(c.roundness),
-            real(c.layer_distance)};
+            real(c.width)};
 }
 
 WEFT_FN ContactBody make_body(const ContactView& c) {
@@ -301,7 +301,6 @@ WEFT_FN void append_rows(const std::uint32_t (&corners)[3][16], mask listed, con
         __builtin_memcpy(to.lever + 4 * at, lever + 4 * lane, 4 * sizeof(float));
         for (int axis = 0; axis < 4; ++axis) to.sum[4 * at + axis] = 0;
         to.displacement[4 * at + 3] = swept[lane];
-        to.any_swept = to.any_swept || swept[lane] > 0;
         for (std::size_t k = 0; k < 3; ++k) to.corners[k][at] = corners[k][lane];
     }
 }
@@ -314,6 +313,14 @@ WEFT_FN void hold_faces(const FaceView& faces, const std::uint32_t (&corners)[3]
     for (std::uint32_t bits = bits_of(passed); bits != 0; bits &= bits - 1) {
         const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
         for (std::size_t k = 0; k < 3; ++k) faces.hold(faces, corners[k][lane], static_cast<std::uint32_t>(part[lane]));
+    }
+}
+
+// Notes that faces around the touching ones may pass after the pushes.
+WEFT_FN void mark_touching(const FaceView& faces, const std::uint32_t (&corners)[3][16], mask touching) {
+    for (std::uint32_t bits = bits_of(touching); bits != 0; bits &= bits - 1) {
+        const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
+        for (const auto& corner : corners) __atomic_store_n(faces.retry + corner[lane], 1, __ATOMIC_RELAXED);
     }
 }
 
@@ -365,6 +372,9 @@ inline void touch_faces(const ParticleView& p, const ContactView& c, const FaceV
                      faces.hold ? least_after_pushes(nearest) : -body.half_thickness);
     if (faces.hold) return hold_faces(faces, lanes.corners, mine && has_passed(contact, nearest), contact.time);
     const mask listed = mine && touches_beside_corners(contact);
+    const mask fast = mine && is_fast(contact, faces.of_moved_body);
+    to.any_fast = to.any_fast || any(fast);
+    mark_touching(faces, lanes.corners, fast && contact.touches);
     if (any(listed))
         append_rows(lanes.corners, listed, face_row(body, contact, lanes.x, lanes.start, lanes.local), to);
 }

@@ -48,7 +48,7 @@ void add_shared(const FaceSums& to, std::uint32_t particle, const std::int32_t* 
 
 void FaceContacts::prepare(std::uint32_t particles, std::uint32_t faces, std::uint32_t colliders, unsigned workers) {
     workers_ = colliders > 0 ? workers : 0;
-    near_.resize(workers_ > 0 ? padded(particles) : 0), swept_.resize(near_.size());
+    for (auto* marks : {&near_, &retry_, &settled_}) marks->resize(workers_ > 0 ? padded(particles) : 0);
     if (workers_ == 0) return;
     if (parts_.size() < workers) parts_.resize(workers);
     if (sums_.size() < particles) sums_.resize(particles), holds_.resize(particles);
@@ -90,10 +90,11 @@ void FaceContacts::make_room(Part& part, std::size_t rows) {
 void FaceContacts::begin(unsigned worker) {
     Part& part = parts_[worker];
     part.rows.count = 0;
-    part.rows.any_swept = false;
+    part.rows.any_fast = false;
     part.any_of_bodies = false;
     part.groups.clear();
     part.held.clear();
+    part.any_settled = false;
 }
 
 namespace {
@@ -123,9 +124,19 @@ void hold_corner(const FaceView& faces, std::uint32_t particle, std::uint32_t pa
 
 }  // namespace
 
-bool FaceContacts::any_swept() const {
+bool FaceContacts::any_fast() const {
     const auto first = parts_.begin();
-    return std::any_of(first, first + workers_, [](const Part& part) { return part.rows.any_swept; });
+    return std::any_of(first, first + workers_, [](const Part& part) { return part.rows.any_fast; });
+}
+
+bool FaceContacts::any_settled() const {
+    const auto first = parts_.begin();
+    return std::any_of(first, first + workers_, [](const Part& part) { return part.any_settled; });
+}
+
+void FaceContacts::forget_settled() {
+    std::ranges::fill(settled_, std::uint8_t{0});
+    for (unsigned worker = 0; worker < workers_; ++worker) parts_[worker].any_settled = false;
 }
 
 bool FaceContacts::any_of_bodies() const {
@@ -135,8 +146,8 @@ bool FaceContacts::any_of_bodies() const {
 
 void FaceContacts::clear_near(Range particles) {
     if (near_.empty()) return;
-    std::fill(near_.begin() + particles.begin, near_.begin() + particles.end, std::uint8_t{0});
-    std::fill(swept_.begin() + particles.begin, swept_.begin() + particles.end, std::uint8_t{0});
+    for (auto* marks : {&near_, &retry_, &settled_})
+        std::fill(marks->begin() + particles.begin, marks->begin() + particles.end, std::uint8_t{0});
 }
 
 void FaceContacts::collect(Part& part, const std::uint8_t* marks, const FacesByTile& faces, const ColliderRun& run) {
@@ -157,8 +168,8 @@ void FaceContacts::collect(unsigned worker, const FacesByTile& faces, const Coll
     collect(parts_[worker], near_.data(), faces, run);
 }
 
-void FaceContacts::collect_swept(unsigned worker, const FacesByTile& faces, const ColliderRun& run) {
-    collect(parts_[worker], swept_.data(), faces, run);
+void FaceContacts::collect_again(unsigned worker, const FacesByTile& faces, const ColliderRun& run, bool last) {
+    collect(parts_[worker], last ? settled_.data() : retry_.data(), faces, run);
 }
 
 FaceView FaceContacts::view(const Part& part, const FacesByTile& faces) const {
@@ -192,18 +203,15 @@ std::size_t FaceContacts::find(const Passes& passes, unsigned worker, const Part
     if (part.item_count == 0) return 0;
     make_room(part, part.rows.count + part.item_count);
     const std::size_t before = part.rows.count;
-    passes.find_faces[static_cast<std::uint32_t>(contact.kind)](particles, contact, view(part, faces), part.rows);
+    FaceView of = view(part, faces);
+    of.retry = retry_.data(), of.of_moved_body = is_body;
+    passes.find_faces[static_cast<std::uint32_t>(contact.kind)](particles, contact, of, part.rows);
     if (part.rows.count == before) return 0;
     part.any_of_bodies = part.any_of_bodies || is_body;
     if (!part.groups.empty() && part.groups.back().collider == collider)
         part.groups.back().end = part.rows.count;
     else
         part.groups.push_back({collider, part.rows.count});
-    for (std::size_t i = before; i < part.rows.count; ++i) {
-        if (!(part.rows.displacement[4 * i + 3] > 0)) continue;
-        for (const std::uint32_t* corners : part.rows.corners)
-            std::atomic_ref(swept_[corners[i]]).store(1, std::memory_order_relaxed);
-    }
     return part.rows.count - before;
 }
 

@@ -56,17 +56,24 @@ class FaceContacts {
     template <class Visit>
     void for_each_push(const ParticleView& particles, bool last, Visit&& visit) const;
 
-    /// Whether faces may have passed. Valid for all workers after all have found their contacts.
-    bool any_swept() const;
-    /// Collects the faces of a run around those that touch on their way, for calls of hold().
-    void collect_swept(unsigned worker, const FacesByTile& faces, const ColliderRun& run);
+    /// Whether faces may pass. Valid for all workers after all have found their contacts.
+    bool any_fast() const;
+    /// Collects the faces of a run around those that touch and around particles that have been moved back, for calls of
+    /// hold().
+    /// `last`: only those around particles that the last call of for_each_held() has moved.
+    void collect_again(unsigned worker, const FacesByTile& faces, const ColliderRun& run, bool last);
     /// Marks particles of those faces that have passed, after all pushes. `still`: they go no part of their way,
     /// otherwise the part before the touch.
     void hold(const Passes& passes, unsigned worker, const ParticleView& particles, const FacesByTile& faces,
               std::uint32_t collider, const ContactView& contact, bool still);
-    /// Calls visit(particle, collider, part of its way) for the particles that a worker marked, and unmarks them.
+    /// Calls visit(particle, collider, part of its way) for the particles that a worker marked, and unmarks them. It
+    /// returns whether faces around the particle may pass now. `last`: as for collect_again().
     template <class Visit>
-    void for_each_held(unsigned worker, Visit&& visit);
+    void for_each_held(unsigned worker, bool last, Visit&& visit);
+    /// Whether faces may pass around any particle of the last of these calls.
+    bool any_settled() const;
+    /// Lets collect_again() collect only faces around particles that are moved from now on.
+    void forget_settled();
 
   private:
     /// Contacts of the same collider, up to number `end`.
@@ -87,7 +94,7 @@ class FaceContacts {
         std::uint32_t narrowed_count = 0;
         bool is_narrowed = false, is_measured = false;
         AlignedVector<float> measures;  ///< of `items`, if is_measured
-        bool any_of_bodies = false;
+        bool any_of_bodies = false, any_settled = false;
 
         void drop() { item_count = 0, is_narrowed = is_measured = false; }
     };
@@ -105,10 +112,11 @@ class FaceContacts {
 
     unsigned workers_ = 0;
     std::vector<Part> parts_;
-    AlignedVector<FaceSum> sums_;       ///< per particle; 0 between two sweeps
-    std::vector<std::uint32_t> holds_;  ///< per particle; 0 for those that are not held
-    /// Per particle: whether a face of it may touch; whether a face of it touches on its way.
-    std::vector<std::uint8_t> near_, swept_;
+    AlignedVector<FaceSum> sums_;        ///< per particle; 0 between two sweeps
+    std::vector<std::uint32_t> holds_;   ///< per particle; 0 for those that are not held
+    std::vector<std::uint8_t> near_;     ///< per particle: whether a face of it may touch
+    std::vector<std::uint8_t> retry_;    ///< per particle: 1 if a face of it touches or it has been held; of these ...
+    std::vector<std::uint8_t> settled_;  ///< ... 1 if it has been held last
 };
 
 template <class Visit>
@@ -134,13 +142,19 @@ void FaceContacts::for_each_push(const ParticleView& particles, bool last, Visit
 }
 
 template <class Visit>
-void FaceContacts::for_each_held(unsigned worker, Visit&& visit) {
-    for (const std::uint32_t p : parts_[worker].held) {
+void FaceContacts::for_each_held(unsigned worker, bool last, Visit&& visit) {
+    Part& mine = parts_[worker];
+    for (const std::uint32_t p : mine.held) {
         const std::uint32_t part = WEFT_HOLD_PARTS - (holds_[p] / WEFT_HOLD_COLLIDERS - 1);
-        visit(p, holds_[p] % WEFT_HOLD_COLLIDERS, static_cast<float>(part) / static_cast<float>(WEFT_HOLD_PARTS));
+        const std::uint32_t collider = holds_[p] % WEFT_HOLD_COLLIDERS;
         holds_[p] = 0;
+        if (!visit(p, collider, static_cast<float>(part) / static_cast<float>(WEFT_HOLD_PARTS))) continue;
+        retry_[p] = 1;
+        if (!last) continue;
+        settled_[p] = 1;
+        mine.any_settled = true;
     }
-    parts_[worker].held.clear();
+    mine.held.clear();
 }
 
 }  // namespace weft::cpu

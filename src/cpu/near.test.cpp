@@ -70,7 +70,7 @@ class Near : public InstructionSet {
                 .data = blocks_of(collider),
                 .steepness = steepness_of(collider),
                 .roundness = roundness_of(collider),
-                .layer_distance = layer_distance_of(collider),
+                .width = width_of(collider),
                 .now = in.now,
                 .before = in.before,
                 .static_friction = 0.4f,

@@ -77,11 +77,11 @@ struct ThicknessView {
 };
 
 struct ContactView {
-    int kind;                                    ///< of the shape
-    std::array<float, 4> numbers;                ///< of the shape
-    ShapeBlocks data;                            ///< of the shape
-    float steepness, roundness, layer_distance;  ///< of the shape (swept.kernel.h)
-    Pose now, before;                            ///< at the end and at the start of the substep
+    int kind;                           ///< of the shape
+    std::array<float, 4> numbers;       ///< of the shape
+    ShapeBlocks data;                   ///< of the shape
+    float steepness, roundness, width;  ///< of the shape (swept.kernel.h)
+    Pose now, before;                   ///< at the end and at the start of the substep
     float static_friction, kinetic_friction;
     ThicknessView thickness;
     float depenetration;          ///< m
@@ -147,6 +147,9 @@ struct FaceView {
     /// If set, contacts are not appended: the corners of faces that have passed are held at a part of their way.
     void (*hold)(const FaceView&, std::uint32_t particle, std::uint32_t part) = nullptr;
     void* holds = nullptr;
+    /// Per particle: set to 1 for the corners of faces that touch. Needed unless `hold` is set.
+    std::uint8_t* retry = nullptr;
+    bool of_moved_body = false;  ///< whether cloth moves the collider
 };
 
 /// Where triangles are and how they move, per item of a FaceView.
@@ -161,7 +164,7 @@ inline constexpr std::size_t numbers_per_face = 8;
 /// room for all that are appended, and lane_padding more.
 struct FaceRows {
     std::size_t count = 0;
-    bool any_swept = false;    ///< whether a face touches on its way
+    bool any_fast = false;     ///< whether faces may pass a collider after the pushes
     float* weights = nullptr;  ///< of the first two corners; static and kinetic friction
     float* plane = nullptr;    ///< normal, offset
     float* start = nullptr;    ///< the point at the start; its gap there

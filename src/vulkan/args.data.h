@@ -375,8 +375,8 @@ struct FaceContactArgs {
     Uints faces;     // corners in the order of tiles, [corner · stride + face]; the first face of each tile, and the end;
                      // the face of each triangle (FacesByTile)
     Vec4s contacts;  // face_contact.glsl
-    Uints sums;      // per particle: pushes by axis, their number or longest, hold, marks; then whether a face touches on
-                     // its way
+    Uints sums;      // per particle: pushes by axis, their number or longest, hold, marks; then WEFT_FACE_WORDS and two
+                     // lists of particles (face_contact.glsl)
     Vec4s contact_log;  // as in ContactArgs
     Uints offsets;      // triangles around each particle
     Uints items;
@@ -395,9 +395,11 @@ struct FaceContactArgs {
 #define WEFT_FACE_CONTACT_BLOCKS 6u  // of four floats per face and slot; with a contact log one more
 #define WEFT_FACE_SUM 6u             // words per particle
 #define WEFT_NEAR_FACES 1u           // mark: faces of the particle may touch, or contact has moved it
-#define WEFT_SWEPT_FACES 2u          // mark: a face of the particle touches on its way
+#define WEFT_RETRY_FACES 2u          // mark: a face of the particle touches, or the particle has been held
+#define WEFT_FACE_WORDS 3u           // before the lists of held particles
 #define WEFT_FACE_SWEEPS 3u  // face_sweeps
 #define WEFT_FACE_HOLDS 2u   // face_holds
+#define WEFT_MOST_HOLD_ROUNDS 128u  // most_hold_rounds
 
 // Triangles.
 struct FaceArgs {

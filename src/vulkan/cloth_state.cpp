@@ -80,8 +80,8 @@ Result<WorkBuffers> WorkBuffers::create(gpu::Device& device, const ClothModel& m
             const std::uint64_t blocks = WEFT_FACE_CONTACT_BLOCKS + (shape.contact_forces ? 1 : 0);
             work.face_contacts =
                 work.arena.reserve(std::uint64_t{slots} * model.faces_by_tile->most_in_tile * blocks * block);
-            work.face_sums =
-                work.arena.reserve((std::uint64_t{WEFT_FACE_SUM} * model.particle_count + 1) * sizeof(std::uint32_t));
+            work.face_sums = work.arena.reserve(
+                (std::uint64_t{WEFT_FACE_SUM + 2} * model.particle_count + WEFT_FACE_WORDS) * sizeof(std::uint32_t));
         }
     }
     const ConstraintTable& stretch = model.table(ConstraintKind::stretch);

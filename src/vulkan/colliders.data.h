@@ -32,7 +32,7 @@ struct ColliderIn {
     uint pose_step;   // 0: the collider rests in this frame
     float steepness;  // swept.kernel.h
     float roundness;  // m
-    float layer_distance;  // m, swept.kernel.h
+    float width;  // m, swept.kernel.h
     uint body;             // its number
     uint unused0;
     uint unused1;

@@ -205,6 +205,7 @@ class Compiler : ClothArgs {
             case PassKind::move_faces:
             case PassKind::hold_faces:
             case PassKind::settle_faces:
+            case PassKind::finish_holds:
                 add_face_contact(list, pass, substep);
                 break;
             case PassKind::restriction:
@@ -427,8 +428,9 @@ class Compiler : ClothArgs {
                                    .substep = substep,
                                    .sweep = pass.batch};
         const bool by_particle = pass.kind == PassKind::move_faces || pass.kind == PassKind::settle_faces;
-        add(list, std::string(pass_info(pass.kind).name), args,
-            by_particle ? model_.particle_count : faces.begin.back(), pass, substep);
+        Command& command = add(list, std::string(pass_info(pass.kind).name), args,
+                               by_particle ? model_.particle_count : faces.begin.back(), pass, substep);
+        if (pass.kind == PassKind::finish_holds) command.groups = 1;
     }
 
     void add_level(List& list, const Pass& pass, std::uint32_t substep) {

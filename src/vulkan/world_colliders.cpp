@@ -1,6 +1,7 @@
 #include "vulkan/world_colliders.h"
 
 #include "solver/plan/frame_numbers.h"
+#include "solver/plan/world_plan.h"
 #include "vulkan/pose_in.h"
 
 #include <algorithm>
@@ -17,6 +18,8 @@ namespace {
 static_assert(sizeof(ColliderIn) == 80 && sizeof(PoseIn) == 64 && sizeof(CollidersIn) == 40 &&
               sizeof(NearTileIn) == 48);
 static_assert(WEFT_TILE_SLACK == tile_slack_per_way && WEFT_COLLIDER_TILE == lane_padding);
+static_assert(WEFT_FACE_SWEEPS == face_sweeps && WEFT_FACE_HOLDS == face_holds &&
+              WEFT_MOST_HOLD_ROUNDS == most_hold_rounds);
 
 // See CollidersIn::nodes.
 struct NodeIn {
@@ -149,7 +152,7 @@ void WorldColliders::write_colliders(std::span<const Collider> colliders, const 
                  .pose_step = moves ? 1u : 0u,
                  .steepness = steepness_of(collider),
                  .roundness = roundness_of(collider),
-                 .layer_distance = layer_distance_of(collider),
+                 .width = width_of(collider),
                  .body = collider.body ? bodies++ : 0,
                  .unused0 = 0,
                  .unused1 = 0};

@@ -71,7 +71,7 @@ DistanceField field_from(const FieldHead& head) {
     DistanceField field;
     field.cell = head.cell;
     field.data.steepness = head.steepness;
-    field.data.layer_distance = layer_distance_of(field.cell);
+    field.data.width = field_width(field.cell);
     field.places = head.places;
     field.bricks = head.bricks;
     field.zero_area = head.zero_area;

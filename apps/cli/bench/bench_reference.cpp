@@ -159,6 +159,7 @@ class TrafficCounter {
             case PassKind::move_faces:
             case PassKind::hold_faces:
             case PassKind::settle_faces:
+            case PassKind::finish_holds:
             case PassKind::detect:
             case PassKind::cloth_contact:
             case PassKind::limit:

@@ -8,7 +8,7 @@
 // A point on the surface is not in its shelter if the ray leads out of the shape.
 WEFT_FN mask is_sheltered(Solid solid, vec3 from, vec3 ray, real reach)
 {
-    mask convex = solid.layer_distance > real(1e5);
+    mask convex = !(solid.steepness > real(1));
     mask goes_on = reach > real(0);
     mask hit = reach < real(0);
     mask outside = hit;   // at the last point

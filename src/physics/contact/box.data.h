@@ -3,6 +3,8 @@
 
 #include "physics/contact/shape.h"
 
+#include <algorithm>
+
 namespace weft {
 
 inline constexpr std::string_view box_what = "a box around the collider's origin";
@@ -14,6 +16,10 @@ inline constexpr Parameter box_parameters[] = {
 
 inline std::array<float, 4> shape_numbers(const BoxDesc& box) {
     return {box.half_extents.x, box.half_extents.y, box.half_extents.z, 0};
+}
+
+constexpr float shape_width(const BoxDesc& box) {
+    return 2 * std::min({box.half_extents.x, box.half_extents.y, box.half_extents.z});
 }
 
 inline Bounds shape_bounds(const BoxDesc& box) {

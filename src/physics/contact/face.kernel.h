@@ -235,6 +235,7 @@ WEFT_FN vec3 slope_across(Corners x, FacePoint point)
 struct FaceContact {
     mask touches;
     mask swept;         // it touches on the way
+    mask fast;          // it touches on its way, or moves so far that pushes may carry it through the body
     vec3 weights;       // of the point that touches
     vec3 normal;        // in the body's frame
     vec3 place;         // where it touches, in the body's frame
@@ -279,6 +280,7 @@ WEFT_OUTLINED_FN FaceContact swept_face(Solid solid, Corners from, Corners to,
     contact.gap = dot(now.normal, point_of(to, now.weights) - touched) + now.distance;
     contact.gap_at_start = first.distance;
     contact.swept = contact.touches;
+    contact.fast = contact.touches;
     contact.time = time;
     contact.last = now.distance;
     return contact;
@@ -294,13 +296,13 @@ WEFT_FN mask face_may_touch(Corners from, Corners to, FacePoint center, Solid so
 }
 
 // Whether a triangle is on the same side of the body at the end of the substep as at its start: it is not deep inside,
-// its nearest point has about kept the direction to the surface, and it has moved less than to another layer of the body
-// that faces the same way. What slides is spared the search on its way.
+// its nearest point has about kept the direction to the surface, and it has moved less than through the body. What slides is
+// spared the search on its way.
 //   first, last  the point that is nearest at the end, at the start and at the end
 //   deepest      m: what ends deeper is searched on its way
 WEFT_FN mask stays_on_side(Solid solid, FacePoint first, FacePoint last, real way, real deepest)
 {
-    return way < solid.layer_distance && last.distance > deepest &&
+    return way < solid.width && last.distance > deepest &&
            dot(first.normal, last.normal) > real(0.5);
 }
 
@@ -325,6 +327,7 @@ WEFT_FN FaceContact face_contact(Solid solid, Corners from, Corners to, FacePoin
     // A triangle that moves less than its least distance at the start cannot have passed.
     real way = longest_way(from, to);
     mask moves_far = last.distance < real(2) * way * solid.steepness;
+    contact.fast = moves_far && way > real(0.25) * solid.width;
     contact.swept = contact.touches && !contact.touches;
     if (any(moves_far || contact.touches)) {
         FacePoint first = face_point(solid, from, last.weights);
@@ -347,6 +350,7 @@ WEFT_FN FaceContact face_contact(Solid solid, Corners from, Corners to, FacePoin
                 mask overlaps = contact.gap < real(0);
                 contact.touches = (stopped && overlaps) || (!stopped && contact.touches);
                 contact.swept = stopped;
+                contact.fast = contact.fast || stopped;
                 contact.time = select(stopped, swept.time, real(1));
             }
         }
@@ -359,6 +363,14 @@ WEFT_FN mask is_beside_corners(vec3 weights) { return max(weights.x, max(weights
 WEFT_FN mask touches_beside_corners(FaceContact contact)
 {
     return contact.touches && is_beside_corners(contact.weights);
+}
+
+// Whether the triangle, or those around it, may pass the body after the pushes. `gives`: whether cloth moves the body. Then
+// only what touches on its way counts, because to hold the cloth back in slow contact would stop the body.
+WEFT_FN mask is_fast(FaceContact contact, bool gives)
+{
+    mask listed = touches_beside_corners(contact);
+    return gives ? contact.swept && listed : contact.fast;
 }
 
 // m: a face on its side of the body comes no nearer after all pushes.

@@ -30,6 +30,13 @@ constexpr float shape_roundness(const Desc&) {
     return 0;
 }
 
+/// Default, for shapes without data. m: how far through the shape what passes it has to move at least. What a shape
+/// with data adds to ShapeData::width.
+template <class Desc>
+constexpr float shape_width(const Desc& shape) {
+    return 2 * shape_roundness(shape);
+}
+
 /// Default for shapes that need no checks besides the ranges. Other shapes overload it in their *.data.h.
 template <class Desc>
 constexpr ShapeProblem shape_problem(const Desc&) {

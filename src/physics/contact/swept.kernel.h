@@ -17,9 +17,9 @@ WEFT_OUTLINED_FN real shape_distance(int kind, vec3 p, ShapeNumbers s, out_(vec3
 struct Solid {
     int kind;
     ShapeNumbers numbers;
-    real steepness;  // at least 1: the surface is no nearer than the distance divided by this
+    real steepness;  // the surface is no nearer than the distance divided by this: 1 if it is convex, more if it is not
     real roundness;  // m: the least radius to which its surface is curved outward
-    real layer_distance;  // m: parts of the surface that face the same way, one behind the other, are this far apart
+    real width;      // m: what passes through it, or through one of its parts, moves at least this far
 };
 
 WEFT_FN real solid_distance(Solid solid, vec3 p, out_(vec3) normal)

@@ -263,6 +263,7 @@ class Planner {
             passes.push_back({.kind = PassKind::hold_faces, .batch = hold});
             passes.push_back({.kind = PassKind::settle_faces, .batch = hold});
         }
+        passes.push_back({.kind = PassKind::finish_holds, .batch = face_holds});
         move_bodies(move_after_faces);
     }
 

@@ -34,8 +34,10 @@ constexpr bool compensates(const SolverDesc& solver, double dt) {
 
 /// Sweeps over the contacts of faces with colliders. One more follows, which keeps faces from passing.
 inline constexpr std::uint32_t face_sweeps = 3;
-/// How often particles of faces that have passed in spite of that are held.
+/// How often particles of faces that have passed in spite of that are held, on all threads. Rounds on one thread
+/// follow, until no face passes, but at most so many.
 inline constexpr std::uint32_t face_holds = 2;
+inline constexpr std::uint32_t most_hold_rounds = 128;
 
 /// Sweeps over the contacts of cloth with bodies, each of which moves the bodies, at the first contact of a substep.
 inline constexpr std::uint32_t body_sweeps = 3;
@@ -88,7 +90,7 @@ WorldPlan plan_world(const StepSettings& settings, std::span<const PlannedCloth>
 /// Whether a pass is one of contact of faces with colliders.
 constexpr bool is_face_contact(PassKind kind) {
     return kind == PassKind::find_faces || kind == PassKind::push_faces || kind == PassKind::move_faces ||
-           kind == PassKind::hold_faces || kind == PassKind::settle_faces;
+           kind == PassKind::hold_faces || kind == PassKind::settle_faces || kind == PassKind::finish_holds;
 }
 bool has_face_contact(const WorldPlan& plan);
 /// Whether a pass is one of contact between cloths.

@@ -13,6 +13,7 @@ namespace {
         collider.numbers = shape_numbers(shape);                  \
         collider.bounds = shape_bounds(shape);                    \
         collider.roundness = shape_roundness(shape);              \
+        collider.width = shape_width(shape);                      \
     }
 #include "physics/contact/shapes.def"
 #undef WEFT_SHAPE
@@ -31,6 +32,7 @@ Collider make_collider(const ColliderDesc& desc, std::shared_ptr<const ShapeData
     if (data) {
         collider.bounds.min = collider.bounds.min + data->bounds.min;
         collider.bounds.max = collider.bounds.max + data->bounds.max;
+        collider.width += data->width;
     }
     if (!std::holds_alternative<SolidMeshDesc>(desc.shape)) collider.features = features_of(desc.shape, data.get());
     collider.data = std::move(data);

@@ -8,6 +8,7 @@
 #include "solver/world/body.h"
 #include "solver/world/keys.h"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -43,6 +44,7 @@ struct Collider {
     std::shared_ptr<const ShapeData> data = {};  ///< null if the numbers say everything
     Bounds bounds = {};                          ///< m: box of the shape in its own frame
     float roundness = 0;                         ///< m: the least radius to which the surface is curved outward
+    float width = 0;                             ///< m: what passes through it moves at least this far
     std::array<float, 2> friction{0.4f, 0.3f};   ///< static, kinetic
     std::optional<Adhesion> adhesion = {};       ///< nullopt: cloth does not stick
     Pose pose;                                   ///< current pose
@@ -64,15 +66,14 @@ inline float steepness_of(const Collider& collider) {
     return collider.data ? collider.data->steepness : 1.0f;
 }
 
-/// ShapeData::layer_distance; that of a convex shape, if the numbers say everything.
-inline float layer_distance_of(const Collider& collider) {
-    return collider.data ? collider.data->layer_distance : static_cast<float>(far_away);
-}
-
 /// Its roundness, finite: a plane counts as a ball that is as large as any collider.
 inline float roundness_of(const Collider& collider) {
-    constexpr auto largest = static_cast<float>(far_away);
-    return collider.roundness < largest ? collider.roundness : largest;
+    return std::min(collider.roundness, static_cast<float>(far_away));
+}
+
+/// Its width, finite.
+inline float width_of(const Collider& collider) {
+    return std::min(collider.width, static_cast<float>(far_away));
 }
 
 /// What the shape's kernel reads besides the numbers.

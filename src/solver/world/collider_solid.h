@@ -13,7 +13,7 @@ inline reference::Solid solid_of(const Collider& collider) {
             {double{n[0]}, double{n[1]}, double{n[2]}, double{n[3]}, blocks_of(collider)},
             double{steepness_of(collider)},
             double{roundness_of(collider)},
-            double{layer_distance_of(collider)}};
+            double{width_of(collider)}};
 }
 
 }  // namespace weft

@@ -44,7 +44,7 @@ Solid solid_of(ColliderIn collider)
 {
     ShapeNumbers numbers = ShapeNumbers(collider.numbers.x, collider.numbers.y, collider.numbers.z, collider.numbers.w,
                                         ShapeBlocks(collider.data));
-    return Solid(int(collider.shape), numbers, collider.steepness, collider.roundness, collider.layer_distance);
+    return Solid(int(collider.shape), numbers, collider.steepness, collider.roundness, collider.width);
 }
 
 // m, to the shape's surface; `local` is in the collider's frame of reference, as is the normal.

@@ -84,6 +84,10 @@ bool reaches(ColliderIn collider)
 {
     return cloth_reaches_faces(face_contact_args.at.frame, collider.roundness);
 }
+bool is_moved_by_cloth(ColliderIn collider)
+{
+    return is_body(collider) && feels_cloth(face_contact_args.at.colliders.at.bodies, collider.body);
+}
 
 // Returns a contact that does not touch if the face is far away.
 //   nearest  m: a face that comes no nearer than this touches only on its way
@@ -93,22 +97,24 @@ FaceContact contact_of(ColliderIn collider, ContactBody body, FacePoints face, f
     Solid solid = solid_of(collider);
     Corners local = to_body(body, face.x), local_at_start = to_body_at_start(body, face.start);
     FacePoint center = face_point(solid, local, center_weights());
-    FaceContact none = FaceContact(false, false, center.weights, center.normal, vec3(0.0), 0.0, 0.0, 1.0, 0.0);
+    FaceContact none = FaceContact(false, false, false, center.weights, center.normal, vec3(0.0), 0.0, 0.0, 1.0, 0.0);
     if (!face_may_touch(local_at_start, local, center, solid, nearest)) return none;
     return face_contact(solid, local_at_start, local, center, nearest_of_faces(body.half_thickness), body.half_thickness,
                         deepest);
 }
 
-// Whether a face of the cloth touches on its way, in a word after the sums.
-uint swept_word() { return WEFT_FACE_SUM * face_contact_args.at.particles; }
+// Words after the sums: whether a face is FaceContact::fast; the lengths of two lists of held particles; the lists.
+uint fast_word() { return WEFT_FACE_SUM * face_contact_args.at.particles; }
+uint length_of_held(uint list) { return fast_word() + 1u + list; }
+uint first_held(uint list) { return fast_word() + 3u + list * face_contact_args.at.particles; }
 
-// Marks of a particle (WEFT_NEAR_FACES of contact.glsl, WEFT_SWEPT_FACES).
+// Marks of a particle (WEFT_NEAR_FACES of contact.glsl, WEFT_RETRY_FACES).
 uint marks_of(uint p) { return face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 5u]; }
 bool any_marked(uvec3 corner, uint mark)
 {
     return ((marks_of(corner.x) | marks_of(corner.y) | marks_of(corner.z)) & mark) != 0u;
 }
-void mark_swept(uint p) { atomicOr(face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 5u], WEFT_SWEPT_FACES); }
+void mark_to_retry(uint p) { atomicOr(face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 5u], WEFT_RETRY_FACES); }
 
 void run_find_faces(uint f)
 {
@@ -127,15 +133,16 @@ void run_find_faces(uint f)
         ContactBody body = body_of(face_contact_args.at.colliders, collider, face_contact_args.at.frame, face_substep(),
                                    half_thickness);
         FaceContact contact = contact_of(collider, body, face, nearest_of_faces(half_thickness), -body.half_thickness);
+        bool moved = is_moved_by_cloth(collider), fast = is_fast(contact, moved);
+        if (fast) atomicOr(face_contact_args.at.sums.at[fast_word()], 1u);
+        if (fast && contact.touches) {
+            mark_to_retry(corner.x);
+            mark_to_retry(corner.y);
+            mark_to_retry(corner.z);
+        }
         if (!touches_beside_corners(contact)) continue;
         store_contact(place, face_row(body, contact, face.x, face.start, to_body(body, face.x)));
-        if (is_body(collider) && feels_cloth(face_contact_args.at.colliders.at.bodies, collider.body))
-            add_touch(face_contact_args.at.colliders.at.bodies, collider.body);
-        if (!contact.swept) continue;
-        atomicOr(face_contact_args.at.sums.at[swept_word()], 1u);
-        mark_swept(corner.x);
-        mark_swept(corner.y);
-        mark_swept(corner.z);
+        if (moved) add_touch(face_contact_args.at.colliders.at.bodies, collider.body);
     }
 }
 
@@ -192,7 +199,7 @@ void run_push_faces(uint f)
             vec4 kept = face_contact_args.at.contacts.at[place + 3u];
             ContactSum sum = ContactSum(kept.xyz, kept.w);
             ColliderIn collider = collider_of_slot(slot);
-            if (is_body(collider) && feels_cloth(face_contact_args.at.colliders.at.bodies, collider.body)) {
+            if (is_moved_by_cloth(collider)) {
                 by = face_displacement_of_body(row, point, inverse_mass, sum, carried_since_found(collider.body, point),
                                                moved_body(face_contact_args.at.colliders.at.bodies, collider.body));
             } else {
@@ -230,7 +237,7 @@ void note_push(uint p, uint collider, vec3 by, vec3 lever, vec4 x)
 {
     if (logs_faces()) log_push(p, collider, by * heavier(face_contact_args.at.frame, p, x.w), lever);
     ColliderIn of = face_contact_args.at.colliders.at.colliders.at[collider];
-    if (is_body(of) && feels_cloth(face_contact_args.at.colliders.at.bodies, of.body))
+    if (is_moved_by_cloth(of))
         add_to_body(face_contact_args.at.colliders.at.bodies, of.body, by, x.xyz + by, x.w);
 }
 
@@ -282,13 +289,24 @@ void run_move_faces(uint p)
     store_point(face_contact_args.at.position, p, vec4(x.xyz + total * share, x.w));
 }
 
-void hold_corner(uint p, uint mark) { atomicMax(face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 4u], mark); }
-
-void run_hold_faces(uint f)
+void append_held(uint list, uint p)
 {
-    if (face_contact_args.at.sums.at[swept_word()] == 0u) return;
-    uvec3 corner = corners_of_face(f);
-    if (!any_marked(corner, WEFT_SWEPT_FACES)) return;
+    uint at = atomicAdd(face_contact_args.at.sums.at[length_of_held(list)], 1u);
+    face_contact_args.at.sums.at[first_held(list) + at] = p;
+}
+
+#define WEFT_NO_LIST 2u
+void hold_corner(uint p, uint mark, uint list)
+{
+    uint before = atomicMax(face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 4u], mark);
+    if (before == 0u && list != WEFT_NO_LIST) append_held(list, p);
+}
+
+// Marks the particles of a face that has passed.
+//   first  the particles go the part of their way before the touch, otherwise none
+//   list   of held particles, to which they are added
+void hold_face(uint f, uvec3 corner, bool first, uint list)
+{
     uint tile = tile_of_face(corner);
     FacePoints face = points_of_face(corner);
     float half_thickness = half_thickness_of_face(face_contact_args.at.frame, corner);
@@ -296,35 +314,52 @@ void run_hold_faces(uint f)
     for (uint slot = slots.x; slot < slots.y; ++slot) {
         uint number = face_contact_args.at.slots.at[slot];
         ColliderIn collider = face_contact_args.at.colliders.at.colliders.at[number];
-        if (!reaches(collider)) continue;
+        if (!reaches(collider) || (list != WEFT_NO_LIST && is_moved_by_cloth(collider))) continue;
         ContactBody body = body_of(face_contact_args.at.colliders, collider, face_contact_args.at.frame, face_substep(),
                                    half_thickness);
         float nearest = nearest_of_faces(half_thickness);
         FaceContact contact = contact_of(collider, body, face, 0.0, least_after_pushes(nearest));
         if (!has_passed(contact, nearest)) continue;
-        uint part = face_contact_args.at.sweep > 0u ? 0u : uint(floor(contact.time * float(WEFT_HOLD_PARTS)));
+        uint part = first ? uint(floor(contact.time * float(WEFT_HOLD_PARTS))) : 0u;
         uint mark = (uint(WEFT_HOLD_PARTS) - part + 1u) * WEFT_HOLD_COLLIDERS + number % WEFT_HOLD_COLLIDERS;
-        hold_corner(corner.x, mark);
-        hold_corner(corner.y, mark);
-        hold_corner(corner.z, mark);
+        hold_corner(corner.x, mark, list);
+        hold_corner(corner.y, mark, list);
+        hold_corner(corner.z, mark, list);
     }
 }
 
-void run_settle_faces(uint p)
+void run_hold_faces(uint f)
 {
-    if (p == 0u && face_contact_args.at.sweep + 1u == WEFT_FACE_HOLDS) face_contact_args.at.sums.at[swept_word()] = 0u;
+    if (face_contact_args.at.sums.at[fast_word()] == 0u) return;
+    uvec3 corner = corners_of_face(f);
+    if (any_marked(corner, WEFT_RETRY_FACES)) hold_face(f, corner, face_contact_args.at.sweep == 0u, WEFT_NO_LIST);
+}
+
+// Moves a particle that is held. Returns whether faces around it may pass now: not beside a body that cloth moves, because
+// what it gave way to is not known here.
+bool settle_face_particle(uint p)
+{
     uint mark = face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 4u];
-    if (mark == 0u) return;
+    if (mark == 0u) return false;
     face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 4u] = 0u;
     vec4 x = load_point(face_contact_args.at.position, p);
-    if (!(x.w > 0.0)) return;
+    if (!(x.w > 0.0)) return false;
     uint number = mark % WEFT_HOLD_COLLIDERS;
     float part = float(uint(WEFT_HOLD_PARTS) - (mark / WEFT_HOLD_COLLIDERS - 1u)) / float(WEFT_HOLD_PARTS);
     ColliderIn collider = face_contact_args.at.colliders.at.colliders.at[number];
     ContactBody body = body_of(face_contact_args.at.colliders, collider, face_contact_args.at.frame, face_substep(), 0.0);
     vec3 place = held_place(body, to_body_at_start(body, face_contact_args.at.start.at[p].xyz), to_body(body, x.xyz), part);
+    if (place == x.xyz) return false;
     note_push(p, number, place - x.xyz, x.xyz - body.position, x);
     store_point(face_contact_args.at.position, p, vec4(place, x.w));
+    return !is_moved_by_cloth(collider);
+}
+
+void run_settle_faces(uint p)
+{
+    if (!settle_face_particle(p)) return;
+    mark_to_retry(p);
+    if (face_contact_args.at.sweep + 1u == WEFT_FACE_HOLDS) append_held(0u, p);
 }
 
 #endif
