@@ -32,7 +32,11 @@ ColliderPart& ClothRun::cover_colliders(const Pass& pass, std::uint32_t substep,
         part.begin_frame({mine.begin, mine.end}, !model().collision.meets_surfaces());
     const float left = static_cast<float>(plan_.substeps - substep), seconds = numbers_.h * left;
     part.cover(passes_, view_, *input_.places, bodies_,
-               {.fall = input_.gravity * (0.5f * seconds * seconds), .substeps = left, .margin = numbers_.tile_margin});
+               {.fall = input_.gravity * (0.5f * seconds * seconds),
+                .substeps = left,
+                .margin = numbers_.tile_margin,
+                .widest = widest_face(model()),
+                .longest = cloth_.face_contacts.longest_edge()});
     return part;
 }
 
@@ -133,7 +137,8 @@ void ClothRun::mark_near_faces(const ColliderRun& run, const NearCollider& near,
 
 float ClothRun::widest_to_touch(std::uint32_t collider) const {
     const bool touches_faces = faces_touch(model(), input_.colliders[collider]);
-    return touches_faces ? widest_face(model()) : -static_cast<float>(far_away);
+    return touches_faces ? std::max(widest_face(model()), cloth_.face_contacts.longest_edge())
+                         : -static_cast<float>(far_away);
 }
 
 MovingBall ClothRun::ball_of(std::uint32_t number, std::uint32_t substep) const {
@@ -225,6 +230,9 @@ void ClothRun::run_face_contact(const Pass& pass, std::uint32_t substep, Worker 
     FaceContacts& contacts = cloth_.face_contacts;
     const FacesByTile& faces = *model().faces_by_tile;
     switch (pass.kind) {
+        case PassKind::longest_edge:
+            if (!input_.colliders.empty()) contacts.find_longest_edge(passes_, worker.number, view_, faces, substep);
+            break;
         case PassKind::find_faces:
             contacts.begin(worker.number);
             for_each_near_face(
@@ -280,6 +288,7 @@ bool ClothRun::gives(std::uint32_t collider) const {
 // here, so one thread holds them all.
 void ClothRun::finish_holds(const Pass& pass, std::uint32_t substep, unsigned workers) const {
     FaceContacts& contacts = cloth_.face_contacts;
+    contacts.end_substep();
     for (std::uint32_t round = 0; round < most_hold_rounds && contacts.any_settled(); ++round) {
         for (unsigned worker = 0; worker < workers; ++worker) hold_faces(pass, substep, {worker, workers});
         contacts.forget_settled();

@@ -53,6 +53,7 @@ void ColliderPart::begin_frame(Share mine, bool surfaces) {
     mine_ = mine;
     surfaces_ = surfaces;
     boxes_.assign((mine.end - mine.begin + tile_size - 1) / tile_size, {});
+    stretch_ = 0;
     lists_.colliders.clear();
     lists_.begin.assign(boxes_.size() + 1, 0);
     runs_.clear(), near_.clear(), near_bodies_.clear(), touched_.clear();
@@ -64,8 +65,10 @@ void ColliderPart::cover(const Passes& passes, const ParticleView& particles, co
     const Range mine{mine_.begin, mine_.end};
     const std::uint32_t outside = passes.first_outside(particles.position, boxes_, mine, 0);
     const bool bodies_left = bodies_serial_ != bodies.reach_serial();
-    if (outside == tiles() && !bodies_left) return;
-    search(passes, particles, places, bodies, reach, outside);
+    const bool stretched = reach.longest - reach.widest > stretch_;
+    if (outside == tiles() && !bodies_left && !stretched) return;
+    if (stretched) grow_boxes(room_to_stretch * reach.longest - reach.widest);
+    search(passes, particles, places, bodies, reach, outside, bodies_left || stretched);
     bodies_serial_ = bodies.reach_serial();
     std::swap(runs_, last_runs_), std::swap(near_, last_near_), std::swap(touched_, last_touched_);
     join_tiles();
@@ -77,6 +80,12 @@ void ColliderPart::cover(const Passes& passes, const ParticleView& particles, co
     last_touched_.assign(last_near_.size(), 1);
     carry_over(last_runs_, last_near_, last_touched_, moved_, scratch_);
     carry_over(last_runs_, last_near_, last_touched_, turned_, scratch_);
+}
+
+void ColliderPart::grow_boxes(float stretch) {
+    for (Bounds& box : boxes_)
+        if (!box.empty()) box = grown(box, stretch - stretch_);
+    stretch_ = stretch;
 }
 
 void ColliderPart::number_bodies(const Bodies& bodies) {
@@ -96,15 +105,14 @@ Bounds ColliderPart::box_of(const ParticleView& particles, std::uint32_t tile, c
         box.include(x + by * reach.substeps + reach.fall);
         way = std::max(way, length(by));
     }
-    return box.empty() ? box : grown(box, reach.margin + tile_slack_per_way * way * reach.substeps);
+    return box.empty() ? box : grown(box, reach.margin + stretch_ + tile_slack_per_way * way * reach.substeps);
 }
 
-// Searches the tiles that have left their boxes, the first of which is `outside`, and all if a body has left its own.
-// The other lists stay as they are.
+// Searches the tiles that have left their boxes, the first of which is `outside`, or `all`. The other lists stay as
+// they are.
 void ColliderPart::search(const Passes& passes, const ParticleView& particles, const ColliderPlaces& places,
-                          const Bodies& bodies, const TileReach& reach, std::uint32_t outside) {
+                          const Bodies& bodies, const TileReach& reach, std::uint32_t outside, bool all) {
     const Range mine{mine_.begin, mine_.end};
-    const bool all = bodies_serial_ != bodies.reach_serial();
     next_lists_.colliders.clear();
     next_lists_.begin.clear();
     for (std::uint32_t tile = 0; tile < tiles(); ++tile) {

@@ -21,6 +21,8 @@ struct TileReach {
     Vec3 fall;       ///< m: by gravity, in the rest of the frame
     float substeps;  ///< left in the frame
     float margin;    ///< m: contact, and constraints that pull
+    float widest;    ///< m: widest_face()
+    float longest;   ///< m: of the edges now
 };
 
 /// Consecutive particles that are near the same colliders.
@@ -45,7 +47,7 @@ class ColliderPart {
     void reserve(std::uint32_t tiles, std::uint32_t colliders, bool keeps_sums, bool traces);
     /// Starts a frame for the particles of a worker. `surfaces`: lists also colliders with a Collider::surface.
     void begin_frame(Share mine, bool surfaces = true);
-    /// Makes the lists again if a particle has left its box.
+    /// Makes the lists again if a particle has left its box, or edges have become too long for it.
     void cover(const Passes& passes, const ParticleView& particles, const ColliderPlaces& places, const Bodies& bodies,
                const TileReach& reach);
 
@@ -91,7 +93,8 @@ class ColliderPart {
     std::uint32_t tiles() const { return static_cast<std::uint32_t>(boxes_.size()); }
     Bounds box_of(const ParticleView& particles, std::uint32_t tile, const TileReach& reach) const;
     void search(const Passes& passes, const ParticleView& particles, const ColliderPlaces& places, const Bodies& bodies,
-                const TileReach& reach, std::uint32_t outside);
+                const TileReach& reach, std::uint32_t outside, bool all);
+    void grow_boxes(float stretch);
     void join_tiles();
     void number_bodies(const Bodies& bodies);
     /// `valid`: of `near`.
@@ -102,6 +105,7 @@ class ColliderPart {
     std::uint64_t bodies_serial_ = 0;  ///< Bodies::reach_serial() at the last search
     bool keeps_sums_ = false, traces_ = false, surfaces_ = true;
     std::vector<Bounds> boxes_;  ///< by tile; empty: not searched yet
+    float stretch_ = 0;          ///< m: by how much they are larger because edges are long
     Lists lists_, next_lists_;
     std::vector<std::uint32_t> found_;
     std::vector<ColliderRun> runs_, last_runs_;

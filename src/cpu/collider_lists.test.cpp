@@ -27,7 +27,10 @@ struct Tiles {
             x = {x.x + by.x, x.y + by.y, x.z + by.z, x.w};
         }
     }
-    void cover() { part.cover(scalar_passes(), view(), places, Bodies(), {.fall = {}, .substeps = 1, .margin = 0.1f}); }
+    void cover(float longest = 0) {
+        part.cover(scalar_passes(), view(), places, Bodies(),
+                   {.fall = {}, .substeps = 1, .margin = 0.1f, .widest = 0.1f, .longest = longest});
+    }
     std::vector<std::uint32_t> near(std::uint32_t tile) const {
         std::vector<std::uint32_t> found;
         for (const ColliderRun& run : part.runs()) {
@@ -50,6 +53,20 @@ TEST(ColliderLists, list_what_is_near_each_tile) {
     tiles.part.begin_frame({0, tile_particles});
     tiles.cover();
     for (std::uint32_t tile = 0; tile < 3; ++tile) EXPECT_EQ(tiles.near(tile), Colliders{tile});
+}
+
+TEST(ColliderLists, reach_as_far_as_edges_are_long) {
+    Tiles tiles;
+    tiles.part.begin_frame({0, tile_particles});
+    tiles.cover(0.1f);
+    tiles.cover(7);  // finds what edges of 10.5 m may touch
+    EXPECT_EQ(tiles.near(1), (Colliders{0, 1, 2}));
+    tiles.part.begin_frame({0, tile_particles});
+    tiles.cover(7);
+    EXPECT_EQ(tiles.near(2), (Colliders{1, 2, 3}));
+    tiles.part.begin_frame({0, tile_particles});
+    tiles.cover(0.1f);
+    EXPECT_EQ(tiles.near(1), Colliders{1});
 }
 
 TEST(ColliderLists, a_tile_that_leaves_its_box_keeps_its_colliders_and_their_sums) {

@@ -49,6 +49,8 @@ void add_shared(const FaceSums& to, std::uint32_t particle, const std::int32_t* 
 void FaceContacts::prepare(std::uint32_t particles, std::uint32_t faces, std::uint32_t colliders, unsigned workers) {
     workers_ = colliders > 0 ? workers : 0;
     for (auto* marks : {&near_, &retry_, &settled_}) marks->resize(workers_ > 0 ? padded(particles) : 0);
+    met_fast_ = false;
+    for (Part& part : parts_) part.longest_edge = 0;
     if (workers_ == 0) return;
     if (parts_.size() < workers) parts_.resize(workers);
     if (sums_.size() < particles) sums_.resize(particles), holds_.resize(particles);
@@ -85,6 +87,21 @@ void FaceContacts::make_room(Part& part, std::size_t rows) {
                                                 &part.rows.lever};
     for (std::size_t i = 0; i < blocks_per_contact; ++i) *arrays[i] = &part.blocks[i * more].x;
     for (std::size_t k = 0; k < 3; ++k) part.rows.corners[k] = &part.corners[k * more];
+}
+
+void FaceContacts::find_longest_edge(const Passes& passes, unsigned worker, const ParticleView& particles,
+                                     const FacesByTile& faces, std::uint32_t substep) {
+    if (substep > 0 && !met_fast_) return;
+    const Share mine = weft::share_of(faces.begin.back(), lane_padding, worker, workers_);
+    const FaceView all{.corners = faces.corners.data(), .stride = faces.stride, .items = nullptr, .count = 0};
+    float& longest = parts_[worker].longest_edge;
+    longest = std::max(longest, passes.longest_edge(particles, all, mine.begin, mine.end));
+}
+
+float FaceContacts::longest_edge() const {
+    float longest = 0;
+    for (unsigned worker = 0; worker < workers_; ++worker) longest = std::max(longest, parts_[worker].longest_edge);
+    return longest;
 }
 
 void FaceContacts::begin(unsigned worker) {

@@ -25,6 +25,12 @@ class FaceContacts {
     /// Allocates, on the calling thread; `faces`, `colliders`: 0 if no pass uses this.
     void prepare(std::uint32_t particles, std::uint32_t faces, std::uint32_t colliders, unsigned workers);
 
+    /// In the first substep, and after one in which cloth met something fast, looks at a worker's part of the faces.
+    void find_longest_edge(const Passes& passes, unsigned worker, const ParticleView& particles,
+                           const FacesByTile& faces, std::uint32_t substep);
+    /// m: the longest that has been found in the frame. Valid for all workers after all have looked.
+    float longest_edge() const;
+
     /// Starts contact of particles: none of these has a face that may touch.
     void clear_near(Range particles);
     /// ContactView::near_faces of a run.
@@ -72,6 +78,8 @@ class FaceContacts {
     void for_each_held(unsigned worker, bool last, Visit&& visit);
     /// Whether faces may pass around any particle of the last of these calls.
     bool any_settled() const;
+    /// Notes for find_longest_edge() what any_fast() says.
+    void end_substep() { met_fast_ = met_fast_ || any_fast(); }
     /// Lets collect_again() collect only faces around particles that are moved from now on.
     void forget_settled();
 
@@ -95,6 +103,7 @@ class FaceContacts {
         bool is_narrowed = false, is_measured = false;
         AlignedVector<float> measures;  ///< of `items`, if is_measured
         bool any_of_bodies = false, any_settled = false;
+        float longest_edge = 0;  ///< m, in the frame
 
         void drop() { item_count = 0, is_narrowed = is_measured = false; }
     };
@@ -111,6 +120,7 @@ class FaceContacts {
     static float share_of(const FaceSum& sum);
 
     unsigned workers_ = 0;
+    bool met_fast_ = false;  ///< in the frame
     std::vector<Part> parts_;
     AlignedVector<FaceSum> sums_;        ///< per particle; 0 between two sweeps
     std::vector<std::uint32_t> holds_;   ///< per particle; 0 for those that are not held

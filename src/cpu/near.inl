@@ -48,6 +48,21 @@ inline std::uint32_t first_near_pass(const ParticleView& p, const NearBalls& nea
     return found;
 }
 
+// Lanes may go beyond the end, where the triangles are others of the cloth, or have no edges.
+inline float longest_edge_pass(const ParticleView& p, const FaceView& faces, std::uint32_t begin, std::uint32_t end) {
+    real longest = real(0.0f);
+    for (std::uint32_t f = begin; f < end; f += lane_count) {
+        alignas(64) std::uint32_t corners[3][16];
+        for (std::size_t k = 0; k < 3; ++k)
+            std::copy_n(faces.corners + k * faces.stride + f, lane_count, corners[k]);
+        longest = max(longest, longest_edge(load_corners(p.position, corners)));
+        longest = max(longest, longest_edge(load_corners(p.start, corners)));
+    }
+    alignas(64) float lanes[16];
+    store(longest, lanes);
+    return *std::max_element(lanes, lanes + lane_count);
+}
+
 inline void measure_faces_pass(const ParticleView& p, const FaceView& faces, const FaceMeasures& to) {
     for (std::size_t i = 0; i < faces.count; i += lane_count) {
         alignas(64) std::uint32_t corners[3][16];

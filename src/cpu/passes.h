@@ -94,7 +94,7 @@ struct ContactView {
     const float* free = nullptr;  ///< 1/kg, by particle of the cloth: inverse masses if particles may weigh more now
     /// Set for the particles of the range whose faces may touch, or that contact moves; nullptr if no face is to touch.
     std::uint8_t* near_faces = nullptr;
-    float nearest = 0, widest = 0;  ///< m: nearest_of_faces() where the cloth is thickest, widest_face()
+    float nearest = 0, widest = 0;  ///< m: nearest_of_faces() where the cloth is thickest, the longest edge
     SupportView support = {};       ///< contact with bodies, and with the colliders that support
     float number = 0;               ///< of the collider
 };
@@ -322,6 +322,8 @@ struct Passes {
     std::array<void (*)(const ParticleView&, const ContactView&, Range), shape_kind_count> find_support;
     /// Like `contact`, but the body takes its share: adds to its sums.
     std::array<void (*)(const ParticleView&, const ContactView&, const BodyView&, Range), shape_kind_count> touch_body;
+    /// m, of the triangles [begin, end), at the start and at the end of the substep.
+    float (*longest_edge)(const ParticleView&, const FaceView&, std::uint32_t begin, std::uint32_t end);
     void (*measure_faces)(const ParticleView&, const FaceView&, const FaceMeasures&);
     /// Writes those of the items that may touch the collider in the ball. `nearest`: m, nearest_of_faces() where the
     /// cloth is thickest. `to` has room for lane_padding more than all.

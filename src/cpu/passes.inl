@@ -587,6 +587,7 @@ inline constexpr Passes make_passes(std::string_view isa) {
 #include "physics/contact/shapes.def"
         },
 #undef WEFT_SHAPE
+        .longest_edge = longest_edge_pass,
         .measure_faces = measure_faces_pass,
         .near_faces = near_faces_pass,
 #define WEFT_SHAPE(name, Name) find_faces_pass<Name##Shape>,

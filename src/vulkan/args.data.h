@@ -396,7 +396,8 @@ struct FaceContactArgs {
 #define WEFT_FACE_SUM 6u             // words per particle
 #define WEFT_NEAR_FACES 1u           // mark: faces of the particle may touch, or contact has moved it
 #define WEFT_RETRY_FACES 2u          // mark: a face of the particle touches, or the particle has been held
-#define WEFT_FACE_WORDS 3u           // before the lists of held particles
+#define WEFT_LONGEST_EDGE_WORD 3u    // bits of a float, m: WEFT_FACE_WORDS[3]
+#define WEFT_FACE_WORDS 5u           // before the lists of held particles
 #define WEFT_FACE_SWEEPS 3u  // face_sweeps
 #define WEFT_FACE_HOLDS 2u   // face_holds
 #define WEFT_MOST_HOLD_ROUNDS 128u  // most_hold_rounds

@@ -6,6 +6,7 @@
 
 #define WEFT_COLLIDER_TILE 16  // particles in a tile: lane_padding
 #define WEFT_TILE_SLACK 0.25   // tile_slack_per_way
+#define WEFT_ROOM_TO_STRETCH 1.5  // room_to_stretch
 #define WEFT_NO_COLLIDER 0xffffffffu
 
 #define WEFT_COLLIDER_STICKS 1u   // cloth sticks to it
@@ -52,7 +53,8 @@ struct CollidersIn {
 
 // The list of a tile: the colliders of slots [first, first + count), by ascending number.
 struct NearTileIn {
-    vec4 low;  // m: box in which the tile's particles are expected to stay during the frame
+    vec4 low;  // m: box in which the tile's particles are expected to stay during the frame; by how much it is larger
+               // because edges are long
     vec4 high;
     uint first;
     uint count;

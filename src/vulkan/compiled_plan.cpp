@@ -200,6 +200,7 @@ class Compiler : ClothArgs {
             case PassKind::contact:
                 add_contacts(list, pass, substep);
                 break;
+            case PassKind::longest_edge:
             case PassKind::find_faces:
             case PassKind::push_faces:
             case PassKind::move_faces:

@@ -17,7 +17,8 @@ namespace {
 // Sizes of the GLSL layout.
 static_assert(sizeof(ColliderIn) == 80 && sizeof(PoseIn) == 64 && sizeof(CollidersIn) == 40 &&
               sizeof(NearTileIn) == 48);
-static_assert(WEFT_TILE_SLACK == tile_slack_per_way && WEFT_COLLIDER_TILE == lane_padding);
+static_assert(WEFT_TILE_SLACK == tile_slack_per_way && WEFT_ROOM_TO_STRETCH == room_to_stretch &&
+              WEFT_COLLIDER_TILE == lane_padding);
 static_assert(WEFT_FACE_SWEEPS == face_sweeps && WEFT_FACE_HOLDS == face_holds &&
               WEFT_MOST_HOLD_ROUNDS == most_hold_rounds);
 

@@ -142,6 +142,19 @@ TEST(FaceContact, keeps_a_sheet_on_its_side_of_a_swung_rod) {
     }
 }
 
+// Its triangles are stretched to several times their length, and meet the rod farther from their particles than they
+// could at rest.
+TEST(FaceContact, keeps_a_fine_sheet_on_its_side_of_a_swung_rod) {
+    World world = make_world({.solver = {.substeps = 1}});
+    world.add(make_collider(swung_rod(0, 0.8f)));
+    world.add(make_sheet({.resolution = {64, 64}, .layout = world.settings().layout(), .pinned = [](Vec3 p) {
+                              return std::abs(p.z) > 0.499f;
+                          }}));
+    const Watched found = watch(world, 60, 1.0 / 1200);
+    EXPECT_EQ(found.passages.points, 0u);
+    EXPECT_GT(measure_strain(world.frame()).stretch.max, 1);
+}
+
 // By its own weight on what fits between its particles, 5 cm apart.
 TEST(FaceContact, holds_tips_between_particles) {
     const ColliderDesc blunt{.shape = TaperedCapsuleDesc{{0.05f, 0.001f}, 0.1f},

@@ -43,20 +43,27 @@ void add_bodies(World& world) {
          .motion = {{0, {-0.2f, -0.03f, -0.2f}, {20, 0, 0}}, {0.1f, {-0.2f, -0.01f, -0.2f}, {20, 0, 170}}}}));
 }
 
-// Lets the triangles of the whole sheet pass in turn, so that they are held in many rounds.
+// Lets the triangles of the whole sheet pass in turn, so that they are held in many rounds, and stretches them to more
+// than twice their length.
 void add_swung_rod(World& world) {
     world.add(make_collider({.shape = CapsuleDesc{0.001f, 0.8f},
                              .motion = {{0, {0, 0.1f, 0}, {0, 0, 95}}, {0.015f, {0, -0.5f, 0}, {0, 10, 95}}}}));
 }
 
+struct Meeting {
+    void (*add_colliders)(World&);
+    std::uint32_t side;  // particles of the sheet
+    int frames;
+};
+
 std::vector<std::string> hashes_of(std::unique_ptr<Backend> backend, const WorldSettings& settings,
-                                   void (*add_colliders)(World&), bool& exact) {
+                                   const Meeting& meeting, bool& exact) {
     World world(std::move(backend), settings);
     exact = rounds_like_the_cpu(world);
-    add_colliders(world);
-    world.add(sheet_of(20, settings.layout()));
+    meeting.add_colliders(world);
+    world.add(sheet_of(meeting.side, settings.layout()));
     std::vector<std::string> hashes;
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < meeting.frames; ++i) {
         EXPECT_EQ(world.step(frame_seconds).reports & ~report_speed_capped, report_none);
         hashes.push_back(world.state_hash());
     }
@@ -67,14 +74,15 @@ std::vector<std::string> hashes_of(std::unique_ptr<Backend> backend, const World
 TEST(VulkanFaceContact, has_the_bits_of_the_cpu) {
     const WorldSettings settings[] = {{.solver = {.substeps = 8}},
                                       {.solver = {.substeps = 5, .iterations = 2}, .contact_forces = true}};
+    const Meeting meeting{add_bodies, 20, 6};
     for (const WorldSettings& each : settings) {
         bool exact = false;
-        const auto expected = hashes_of(std::move(*make_cpu_backend()), each, add_bodies, exact);
+        const auto expected = hashes_of(std::move(*make_cpu_backend()), each, meeting, exact);
         for (const char* execution : {"streamed", "grouped"}) {
             // One of both for each.
             const bool other = (execution == std::string_view("grouped")) != each.contact_forces;
             if (other && !std::getenv("WEFT_LONG_TESTS")) continue;
-            const auto found = hashes_of(checked_vulkan_backend({.execution = execution}), each, add_bodies, exact);
+            const auto found = hashes_of(checked_vulkan_backend({.execution = execution}), each, meeting, exact);
             if (!exact) continue;
             EXPECT_EQ(found, expected) << execution;
         }
@@ -83,10 +91,11 @@ TEST(VulkanFaceContact, has_the_bits_of_the_cpu) {
 
 // Labels: slow no-asan
 TEST(VulkanFaceContact, holds_what_a_rod_sweeps_through_with_the_bits_of_the_cpu) {
-    const WorldSettings settings{.solver = {.substeps = 10}, .contact_forces = true};
+    const Meeting meeting{add_swung_rod, 40, 3};
+    const WorldSettings settings{.solver = {.substeps = 20}, .contact_forces = true};
     bool exact = false;
-    const auto expected = hashes_of(std::move(*make_cpu_backend()), settings, add_swung_rod, exact);
-    const auto found = hashes_of(checked_vulkan_backend({}), settings, add_swung_rod, exact);
+    const auto expected = hashes_of(std::move(*make_cpu_backend()), settings, meeting, exact);
+    const auto found = hashes_of(checked_vulkan_backend({}), settings, meeting, exact);
     if (exact) {
         EXPECT_EQ(found, expected);
     }

@@ -154,6 +154,7 @@ class TrafficCounter {
             case PassKind::weigh_taut:
             case PassKind::take_taut:
             case PassKind::free_taut:
+            case PassKind::longest_edge:
             case PassKind::find_faces:
             case PassKind::push_faces:
             case PassKind::move_faces:

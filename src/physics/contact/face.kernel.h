@@ -36,6 +36,7 @@ WEFT_FN real longest_way(Corners from, Corners to)
 {
     return longest_of(to.a - from.a, to.b - from.b, to.c - from.c);
 }
+WEFT_FN real longest_edge(Corners x) { return longest_of(x.b - x.a, x.c - x.b, x.a - x.c); }
 // The largest distance of a corner from a point.
 WEFT_FN real radius_around(Corners x, vec3 center) { return longest_of(x.a - center, x.b - center, x.c - center); }
 
@@ -196,7 +197,7 @@ WEFT_OUTLINED_FN FacePoint least_on_face(Solid solid, Corners x, FacePoint point
 
     // What the triangle cannot come nearer than: the tangent planes at both ends of a line, mixed so that they are level
     // where the line is lowest, lie below a distance whose slope only grows.
-    real fine = real(1e-4) * longest_of(x.b - x.a, x.c - x.b, x.a - x.c);
+    real fine = real(1e-4) * longest_edge(x);
     vec3 slope = best.normal - up * dot(best.normal, up);
     for (int line = 0; line < 4 && any(searches); ++line) {
         Interval way;
@@ -377,11 +378,12 @@ WEFT_FN mask is_fast(FaceContact contact, bool gives)
 WEFT_FN real least_after_pushes(real nearest) { return real(0.25) * nearest; }
 
 // Whether a face is still, or again, beyond where it touched on its way, or inside the body: what pushes have left. A face
-// that began inside is not held there.
+// that began inside may come out, but not go deeper.
 WEFT_FN mask has_passed(FaceContact contact, real nearest)
 {
-    return contact.swept && contact.time > real(0) &&
-           (contact.gap < real(-0.75) * nearest || contact.last < least_after_pushes(nearest));
+    real start = contact.gap_at_start + nearest;
+    real least = select(contact.time > real(0), least_after_pushes(nearest), start - real(0.05) * nearest);
+    return contact.swept && min(contact.gap + nearest, contact.last) < least;
 }
 
 // A contact of a face keeps the point with these weights on one side of a plane.

@@ -24,6 +24,10 @@ struct FrameNumbers {
     float tile_margin;  ///< m: a tile's colliders are searched this far around it, for contact and constraints
 };
 
+/// If an edge is longer than widest_face(), the colliders of tiles are searched farther: for edges this many times as
+/// long, so that cloth that is being stretched is not searched again in every substep.
+inline constexpr float room_to_stretch = 1.5f;
+
 FrameNumbers frame_numbers(const ClothModel& model, const WorldPlan& plan, double dt);
 
 /// Static and kinetic friction between a cloth and a collider.
@@ -34,7 +38,8 @@ inline float nearest_of_faces(float half_thickness) {
     return 0.5f * half_thickness;
 }
 
-/// m: the longest edge that a face is expected to have. Its colliders are looked for that far around each corner.
+/// m: the longest edge that a face is expected to have. Its colliders are looked for that far around each corner, and
+/// farther while an edge is longer.
 inline float widest_face(const ClothModel& model) {
     return 1.2f * model.longest_edge;
 }

@@ -48,6 +48,7 @@ class Planner {
             add_levels(i == 0, plan.substep);
             add_constraints_and_pulls(i == 0, false, plan.substep);
             if (i + 1 == settings_.solver.iterations) add_particle_contact(plan.substep);
+            add_longest_edge(plan.substep);
             add_contact(i == 0, plan.substep);
             add_face_contact(plan.substep);
         }
@@ -193,6 +194,7 @@ class Planner {
             const std::size_t first = passes.size();
             if (round > 0) add_constraints_and_pulls(false, true, passes);
             passes.push_back({.kind = PassKind::cloth_contact, .batch = round});
+            if (round + 1 == contact_rounds) add_longest_edge(passes);
             add_contact(false, passes);
             if (round + 1 == contact_rounds) add_face_contact(passes);
             leave_to(PassFor::exact_cloths, passes, first);
@@ -244,6 +246,11 @@ class Planner {
             passes.push_back({.kind = PassKind::touch_bodies, .first_iteration = first && sweep == 0});
             passes.push_back({.kind = PassKind::move_bodies, .batch = move_after_particles});
         }
+    }
+
+    // How far around particles contact looks for what their faces touch.
+    void add_longest_edge(Passes& passes) const {
+        if (settings_.faces) passes.push_back({.kind = PassKind::longest_edge});
     }
 
     // After contact of particles, so that only faces which are deeper than their corners are pushed.

@@ -89,8 +89,9 @@ WorldPlan plan_world(const StepSettings& settings, std::span<const PlannedCloth>
 
 /// Whether a pass is one of contact of faces with colliders.
 constexpr bool is_face_contact(PassKind kind) {
-    return kind == PassKind::find_faces || kind == PassKind::push_faces || kind == PassKind::move_faces ||
-           kind == PassKind::hold_faces || kind == PassKind::settle_faces || kind == PassKind::finish_holds;
+    return kind == PassKind::longest_edge || kind == PassKind::find_faces || kind == PassKind::push_faces ||
+           kind == PassKind::move_faces || kind == PassKind::hold_faces || kind == PassKind::settle_faces ||
+           kind == PassKind::finish_holds;
 }
 bool has_face_contact(const WorldPlan& plan);
 /// Whether a pass is one of contact between cloths.

@@ -39,13 +39,22 @@ bool cloth_reaches_faces(FrameRef frame, float roundness)
     return reaches_faces(roundness, least, nearest_of_faces(least), frame.at.circle_of_faces);
 }
 
+// m: the longest edge that has been found in the frame, or 0 if none is longer than usual.
+float longest_edge_now()
+{
+    if (is_none(uvec2(contact_args.at.face_sums))) return 0.0;
+    return uintBitsToFloat(
+        contact_args.at.face_sums.at[WEFT_FACE_SUM * contact_args.at.particles + WEFT_LONGEST_EDGE_WORD]);
+}
+
 // Whether faces of a particle may touch the collider, or contact has moved it.
 bool marks_faces(Solid solid, ContactBody body, float gap, float way, vec3 moved)
 {
     if (dot(moved, moved) > 0.0) return true;
     FrameRef frame = contact_args.at.frame;
     return cloth_reaches_faces(frame, solid.roundness) &&
-           faces_may_touch(solid, gap + body.half_thickness, way, frame.at.nearest_of_faces, frame.at.widest_face);
+           faces_may_touch(solid, gap + body.half_thickness, way, frame.at.nearest_of_faces,
+                           max(frame.at.widest_face, longest_edge_now()));
 }
 
 // What lies behind a particle that bodies may press on a collider (support.kernel.h).

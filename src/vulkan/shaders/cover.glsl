@@ -25,7 +25,8 @@ bool has_left_box(uint tile)
 
 // Where the particles are expected to be in the rest of the frame: ColliderPart::box_of. Returns false if none of them
 // has a mass, because contact moves only what has one.
-bool find_box(uint tile, out vec3 low, out vec3 high)
+//   stretch  m: by how much the box is larger because edges are long
+bool find_box(uint tile, float stretch, out vec3 low, out vec3 high)
 {
     float left = float(contact_args.at.frame.at.substeps - contact_substep());
     float seconds = contact_args.at.frame.at.h * left, way = 0.0;
@@ -43,7 +44,7 @@ bool find_box(uint tile, out vec3 low, out vec3 high)
         high = max(high, max(x.xyz, ahead));
         way = max(way, length(by));
     }
-    float margin = contact_args.at.frame.at.tile_margin + WEFT_TILE_SLACK * way * left;
+    float margin = contact_args.at.frame.at.tile_margin + stretch + WEFT_TILE_SLACK * way * left;
     low = low - margin;
     high = high + margin;
     return any_mass;
@@ -188,14 +189,20 @@ void run_cover(uint tile)
         contact_args.at.tiles.at[tile].reach_serial = serial;
     }
     bool left = begins || has_left_box(tile);
-    if (!left && !bodies_left) return;
+    // As ColliderPart::cover().
+    float widest = contact_args.at.frame.at.widest_face, before = begins ? 0.0 : contact_args.at.tiles.at[tile].low.w;
+    float longest = longest_edge_now(), stretch = before;
+    bool stretched = longest - widest > stretch;
+    if (stretched) stretch = WEFT_ROOM_TO_STRETCH * longest - widest;
+    if (!left && !bodies_left && !stretched) return;
     uvec2 listed = begins ? uvec2(0u) : slots_near(contact_args.at.tiles, tile_begin(tile));
     if (begins) contact_args.at.tiles.at[tile].first = contact_args.at.tiles.at[tile].count = 0u;
     vec3 low = contact_args.at.tiles.at[tile].low.xyz, high = contact_args.at.tiles.at[tile].high.xyz;
     bool any_mass = all(lessThanEqual(low, high)) && low.x > -everywhere;
+    if (any_mass && !begins) low = low - (stretch - before), high = high + (stretch - before);
     if (left) {
         vec3 low_now, high_now;
-        any_mass = find_box(tile, low_now, high_now);
+        any_mass = find_box(tile, stretch, low_now, high_now);
         low = any_mass && !begins ? min(low, low_now) : low_now;
         high = any_mass && !begins ? max(high, high_now) : high_now;
     }
@@ -206,7 +213,7 @@ void run_cover(uint tile)
         finite = false;
     }
     if (!finite) low = vec3(-everywhere), high = vec3(everywhere);  // no further search in this frame
-    contact_args.at.tiles.at[tile].low = vec4(low, 0.0);
+    contact_args.at.tiles.at[tile].low = vec4(low, stretch);
     contact_args.at.tiles.at[tile].high = vec4(high, 0.0);
 }
 

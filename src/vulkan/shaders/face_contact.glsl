@@ -103,10 +103,14 @@ FaceContact contact_of(ColliderIn collider, ContactBody body, FacePoints face, f
                         deepest);
 }
 
-// Words after the sums: whether a face is FaceContact::fast; the lengths of two lists of held particles; the lists.
+// Words after the sums: whether faces may pass a collider after the pushes; the lengths of two lists of held particles;
+// the longest edge in the frame, if it is longer than usual; whether faces may have passed anything in the frame; the
+// lists.
 uint fast_word() { return WEFT_FACE_SUM * face_contact_args.at.particles; }
 uint length_of_held(uint list) { return fast_word() + 1u + list; }
-uint first_held(uint list) { return fast_word() + 3u + list * face_contact_args.at.particles; }
+uint longest_edge_word() { return fast_word() + WEFT_LONGEST_EDGE_WORD; }
+uint met_fast_word() { return fast_word() + WEFT_LONGEST_EDGE_WORD + 1u; }
+uint first_held(uint list) { return fast_word() + WEFT_FACE_WORDS + list * face_contact_args.at.particles; }
 
 // Marks of a particle (WEFT_NEAR_FACES of contact.glsl, WEFT_RETRY_FACES).
 uint marks_of(uint p) { return face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 5u]; }
@@ -115,6 +119,16 @@ bool any_marked(uvec3 corner, uint mark)
     return ((marks_of(corner.x) | marks_of(corner.y) | marks_of(corner.z)) & mark) != 0u;
 }
 void mark_to_retry(uint p) { atomicOr(face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 5u], WEFT_RETRY_FACES); }
+
+// In the first substep of a frame, and after one in which cloth met something fast.
+void run_longest_edge(uint f)
+{
+    if (face_substep() > 0u && face_contact_args.at.sums.at[met_fast_word()] == 0u) return;
+    FacePoints face = points_of_face(corners_of_face(f));
+    float longest = max(longest_edge(face.x), longest_edge(face.start));
+    if (longest > face_contact_args.at.frame.at.widest_face)
+        atomicMax(face_contact_args.at.sums.at[longest_edge_word()], floatBitsToUint(longest));
+}
 
 void run_find_faces(uint f)
 {

@@ -46,5 +46,9 @@ void main()
         workgroup_barrier();
     }
     if (me > 0u) return;
-    for (uint word = 0u; word < WEFT_FACE_WORDS; ++word) face_contact_args.at.sums.at[fast_word() + word] = 0u;
+    bool last = face_substep() + 1u == face_contact_args.at.frame.at.substeps;
+    if (face_contact_args.at.sums.at[fast_word()] != 0u) face_contact_args.at.sums.at[met_fast_word()] = 1u;
+    if (last) face_contact_args.at.sums.at[longest_edge_word()] = face_contact_args.at.sums.at[met_fast_word()] = 0u;
+    face_contact_args.at.sums.at[fast_word()] = 0u;
+    for (uint which = 0u; which < 2u; ++which) face_contact_args.at.sums.at[length_of_held(which)] = 0u;
 }
