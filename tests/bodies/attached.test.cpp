@@ -69,7 +69,7 @@ void expect_momentum(Method method, const Fabric& fabric, double linear, double 
 
 // What is left is rounding: an attached point of a heavy body moves by few of the smallest steps of a float.
 TEST(AttachedCloth, and_its_bodies_exchange_momentum) {
-    expect_momentum(Method::pbd, soft_cotton(), 2e-3, 5e-3, 1.01);
+    expect_momentum(Method::pbd, soft_cotton(), 3e-3, 5e-3, 1.01);
 }
 
 TEST(AttachedCloth, exchanges_momentum_with_its_bodies_by_coarse_levels) {
@@ -84,7 +84,7 @@ TEST(AttachedCloth, exchanges_momentum_with_its_bodies_by_coarse_levels) {
 
 // Taut edges add masses that differ by particle (taut.md).
 TEST(AttachedCloth, and_its_bodies_keep_most_of_their_momentum_where_it_is_taut) {
-    expect_momentum(Method::xpbd, soft_cotton(), 1.2e-2, 1.2e-2, 1.01);
+    expect_momentum(Method::xpbd, soft_cotton(), 1.6e-2, 1.2e-2, 1.01);
     expect_momentum(Method::xpbd, find_fabric("cotton")->fabric, 5e-2, 2e-2, 1.01);
 }
 

@@ -142,22 +142,26 @@ WEFT_FN vec3 rates_of(Corners x, vec3 way, vec3 normal)
     real v = dot(cross(way, x.c - x.a), normal) * scale, w = dot(cross(x.b - x.a, way), normal) * scale;
     return vec3(-v - w, v, w);
 }
-WEFT_FN vec3 part_along(vec3 way, vec3 edge) { return edge * (dot(way, edge) / max(dot(edge, edge), real(1e-36))); }
+WEFT_FN real part_of_edge(vec3 way, vec3 edge) { return dot(way, edge) / max(dot(edge, edge), real(1e-36)); }
+WEFT_FN vec3 part_along(vec3 way, vec3 edge) { return edge * part_of_edge(way, edge); }
 
-// A way that would leave the triangle at once goes along the border instead.
-WEFT_FN vec3 way_within(Corners x, vec3 weights, vec3 way, vec3 normal)
+// The rates of the weights along a way that stays on the triangle: what would leave it at once goes along the border. There
+// the rate of the third corner is zero to the last bit.
+WEFT_FN vec3 rates_within(Corners x, vec3 weights, vec3 way, vec3 normal)
 {
     vec3 rates = rates_of(x, way, normal);
-    real least = real(1e-4);
-    way = select(weights.x < least && rates.x < real(0), part_along(way, x.c - x.b), way);
-    way = select(weights.y < least && rates.y < real(0), part_along(way, x.a - x.c), way);
-    return select(weights.z < least && rates.z < real(0), part_along(way, x.b - x.a), way);
+    real least = real(1e-4), zero = real(0);
+    mask off_a = weights.x < least && rates.x < zero, off_b = weights.y < least && rates.y < zero,
+         off_c = weights.z < least && rates.z < zero;
+    real bc = part_of_edge(way, x.c - x.b), ca = part_of_edge(way, x.a - x.c), ab = part_of_edge(way, x.b - x.a);
+    rates = select(off_a, vec3(zero, -bc, bc), rates);
+    rates = select(off_b, vec3(ca, zero, -ca), rates);
+    return select(off_c, vec3(-ab, ab, zero), rates);
 }
 
 // Where a way from a point leaves the triangle: weights.
-WEFT_FN vec3 end_of_way(Corners x, vec3 weights, vec3 way, vec3 normal)
+WEFT_FN vec3 end_of_way(vec3 weights, vec3 rates)
 {
-    vec3 rates = rates_of(x, way, normal);
     real far = real(1e18);
     real t = min(select(rates.x < real(0), weights.x / max(-rates.x, real(1e-18)), far),
                  min(select(rates.y < real(0), weights.y / max(-rates.y, real(1e-18)), far),
@@ -202,7 +206,7 @@ WEFT_OUTLINED_FN FacePoint least_on_face(Solid solid, Corners x, FacePoint point
     for (int line = 0; line < 4 && any(searches); ++line) {
         Interval way;
         way.low = best;
-        way.high = face_point(solid, x, end_of_way(x, best.weights, way_within(x, best.weights, -slope, normal), normal));
+        way.high = face_point(solid, x, end_of_way(best.weights, rates_within(x, best.weights, -slope, normal)));
         best = choose(searches && way.high.distance < best.distance, way.high, best);
         way = search_between(solid, x, way, best, real(1e18), searches);
         vec3 fall = way.low.normal - up * dot(way.low.normal, up);
@@ -314,7 +318,8 @@ WEFT_FN mask stays_on_side(Solid solid, FacePoint first, FacePoint last, real wa
 WEFT_FN FaceContact face_contact(Solid solid, Corners from, Corners to, FacePoint center,
                                  real nearest, real half_thickness, real deepest)
 {
-    FacePoint last = least_on_face(solid, to, center, nearest);
+    real way = longest_way(from, to), far = real(2) * way * solid.steepness;
+    FacePoint last = least_on_face(solid, to, center, max(nearest, far));
     FaceContact contact;
     contact.weights = last.weights;
     contact.normal = slope_across(to, last);
@@ -326,8 +331,7 @@ WEFT_FN FaceContact face_contact(Solid solid, Corners from, Corners to, FacePoin
     contact.touches = contact.gap < real(0);
 
     // A triangle that moves less than its least distance at the start cannot have passed.
-    real way = longest_way(from, to);
-    mask moves_far = last.distance < real(2) * way * solid.steepness;
+    mask moves_far = last.distance < far;
     contact.fast = moves_far && way > real(0.25) * solid.width;
     contact.swept = contact.touches && !contact.touches;
     if (any(moves_far || contact.touches)) {
